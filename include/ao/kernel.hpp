@@ -1,0 +1,99 @@
+// Tables computed once and uploaded as the same bytes to every backend: kernels of offsets in tangent space (normal along
+// +z, unit radius) and the tile of rotations.
+#pragma once
+
+#include "ao/detail/elementary.hpp"
+#include "ao/math.hpp"
+#include "ao/settings.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace ao {
+
+// A fixed sequence of well-mixed 32-bit integers (PCG-RXS-M-XS; O'Neill 2014).
+class random_stream {
+public:
+    constexpr explicit random_stream(std::uint32_t seed) : state_(seed * 747796405U + 2891336453U) { next(); }
+    constexpr std::uint32_t next()
+    {
+        state_ = state_ * 747796405U + 2891336453U;
+        const std::uint32_t word = ((state_ >> ((state_ >> 28U) + 4U)) ^ state_) * 277803737U;
+        return (word >> 22U) ^ word;
+    }
+    // Uniform in [0, 1), a multiple of 2^-24.
+    constexpr float uniform() { return static_cast<float>(next() >> 8U) * 5.9604644775390625e-8F; }
+
+private:
+    std::uint32_t state_;
+};
+
+// Uniform in the half box |x|, |y| <= 1, 0 <= z < 1 (paper 1: S = (2f - 1, 2f - 1, f)).
+constexpr glm::vec3 box_offset(random_stream& random)
+{
+    const float x = 2.0F * random.uniform() - 1.0F;
+    const float y = 2.0F * random.uniform() - 1.0F;
+    return { x, y, random.uniform() };
+}
+
+// Uniform in the half ball, by rejection from the half box (accepted with probability pi / 6).
+constexpr glm::vec3 half_ball_offset(random_stream& random)
+{
+    for (;;) {
+        const glm::vec3 offset = box_offset(random);
+        if (math<float>::ao_dot(offset, offset) <= 1.0F) {
+            return offset;
+        }
+    }
+}
+
+// Cosine-weighted direction, uniform in distance, from three numbers in [0, 1) (paper 2, eq. 14 with its radicand corrected):
+// r (cos a sqrt(1 - w), sin a sqrt(1 - w), sqrt(w)), a = 2 pi u, r = v.
+constexpr glm::vec3 cosine_linear_offset(double u, double v, double w)
+{
+    const double angle = 2 * detail::pi * u;
+    const double across = v * detail::sqrt(1 - w);
+    return { static_cast<float>(across * detail::cosine(angle)), static_cast<float>(across * detail::sine(angle)),
+             static_cast<float>(v * detail::sqrt(w)) };
+}
+
+// The `taps` offsets of a kernel, w = 0. Unused entries are zero.
+constexpr std::array<glm::vec4, max_taps> make_kernel(kernel_type kernel, int taps, std::uint32_t seed)
+{
+    std::array<glm::vec4, max_taps> offsets{};
+    random_stream random(seed);
+    for (int i = 0; i < taps; ++i) {
+        glm::vec3 offset(0.0F);
+        if (kernel == kernel_type::box) {
+            offset = box_offset(random);
+        }
+        else if (kernel == kernel_type::hemisphere) {
+            offset = half_ball_offset(random);
+        }
+        else {
+            using reals = math<double>;
+            const auto index = static_cast<std::uint32_t>(i + 1); // element 0 of the sequence is the pixel itself
+            offset = cosine_linear_offset(reals::ao_radical_inverse(2, index), reals::ao_radical_inverse(3, index),
+                                          reals::ao_radical_inverse(5, index));
+        }
+        offsets[static_cast<std::size_t>(i)] = glm::vec4(offset, 0.0F);
+    }
+    return offsets;
+}
+
+inline constexpr int tile_size = math<float>::ao_tile_size;
+
+// Row-major tile of helper vectors V_r = (2f - 1, 2f - 1) (paper 1).
+constexpr std::array<glm::vec2, tile_size * tile_size> make_rotation_tile(std::uint32_t seed)
+{
+    std::array<glm::vec2, tile_size * tile_size> tile{};
+    random_stream random(seed ^ 0x9e3779b9U);
+    for (glm::vec2& helper : tile) {
+        const float x = 2.0F * random.uniform() - 1.0F;
+        helper = { x, 2.0F * random.uniform() - 1.0F };
+    }
+    return tile;
+}
+
+} // namespace ao

@@ -1,0 +1,71 @@
+// The view-space shading normal of a pixel, from whatever the G-buffer holds.
+// Callbacks: vec4 ao_load_normal(ivec2) (the texel as the API delivers it), real ao_load_depth(ivec2) (eye depth).
+// Options:   int ao_normal_source, bool ao_rotate_normals.
+
+AO_CONST int ao_normal_vector = 0;     // xyz of a float format, any length
+AO_CONST int ao_normal_unorm10 = 1;    // xyz of RGB10A2, 0 ... 1 for -1 ... 1
+AO_CONST int ao_normal_octahedral = 2; // xy of RG16, 0 ... 1 for -1 ... 1, octahedral
+AO_CONST int ao_normal_from_depth = 3; // none stored: rebuilt from the depths around the pixel
+
+// Difference of view positions along one axis of the picture, from the neighbour nearer in depth.
+// `step` is (1, 0) or (0, 1). Zero where both neighbours are background or outside.
+AO_PASS vec3 ao_surface_step(ao_projection p, vec2 size, ivec2 pixel, vec3 position, int step_x, int step_y, bool parallel)
+{
+    ivec2 ahead = ivec2(pixel.x + integer(step_x), pixel.y + integer(step_y));
+    ivec2 behind = ivec2(pixel.x - integer(step_x), pixel.y - integer(step_y));
+    mask has_ahead = real(ahead.x) < size.x && real(ahead.y) < size.y;
+    mask has_behind = behind.x >= integer(0) && behind.y >= integer(0);
+    real depth_ahead = ao_load_depth(ivec2(mix(pixel.x, ahead.x, has_ahead), mix(pixel.y, ahead.y, has_ahead)));
+    real depth_behind = ao_load_depth(ivec2(mix(pixel.x, behind.x, has_behind), mix(pixel.y, behind.y, has_behind)));
+    mask usable_ahead = has_ahead && depth_ahead > real(0) && depth_ahead < real(1e30);
+    mask usable_behind = has_behind && depth_behind > real(0) && depth_behind < real(1e30);
+
+    AO_PRECISE real gap_ahead = abs(depth_ahead + position.z);
+    AO_PRECISE real gap_behind = abs(depth_behind + position.z);
+    mask take_ahead = usable_ahead && (!usable_behind || gap_ahead <= gap_behind);
+    mask take_any = usable_ahead || usable_behind;
+
+    real depth = mix(depth_behind, depth_ahead, take_ahead);
+    ivec2 texel = ivec2(mix(behind.x, ahead.x, take_ahead), mix(behind.y, ahead.y, take_ahead));
+    AO_PRECISE vec2 centre = vec2(real(texel.x) + real(0.5), real(texel.y) + real(0.5));
+    vec3 neighbour = ao_view_point(p, centre, mix(real(1), depth, take_any), parallel);
+    real side = mix(real(-1), real(1), take_ahead);
+    AO_PRECISE vec3 difference = vec3((neighbour.x - position.x) * side, (neighbour.y - position.y) * side,
+                                      (neighbour.z - position.z) * side);
+    return ao_select(vec3(real(0), real(0), real(0)), difference, take_any);
+}
+
+// Normal of the surface through the pixel and its neighbours, towards the eye; +Z where there is none.
+AO_PASS vec3 ao_normal_of_depth(ao_projection p, vec2 size, ivec2 pixel, vec3 position, bool parallel)
+{
+    vec3 along_x = ao_surface_step(p, size, pixel, position, 1, 0, parallel);
+    vec3 along_y = ao_surface_step(p, size, pixel, position, 0, 1, parallel);
+    vec3 normal = ao_cross(along_x, along_y);
+    AO_PRECISE real away = parallel ? -normal.z : ao_dot(normal, position);
+    mask turned = away > real(0);
+    AO_PRECISE vec3 reversed = vec3(-normal.x, -normal.y, -normal.z);
+    return ao_normalize_or(ao_select(normal, reversed, turned), vec3(real(0), real(0), real(1)));
+}
+
+// Unit normal in view space; +Z (towards the eye) for a stored normal that is zero or not finite.
+AO_PASS vec3 ao_shading_normal(ao_projection p, ao_rotation to_view, vec2 size, ivec2 pixel, vec3 position, bool parallel)
+{
+    if (ao_normal_source == ao_normal_from_depth) {
+        return ao_normal_of_depth(p, size, pixel, position, parallel);
+    }
+    vec4 texel = ao_load_normal(pixel);
+    vec3 stored = vec3(texel);
+    if (ao_normal_source == ao_normal_unorm10) {
+        stored = vec3(ao_signed_from_code(ao_unorm_code(texel.x, real(1023)), real(1023)),
+                      ao_signed_from_code(ao_unorm_code(texel.y, real(1023)), real(1023)),
+                      ao_signed_from_code(ao_unorm_code(texel.z, real(1023)), real(1023)));
+    }
+    if (ao_normal_source == ao_normal_octahedral) {
+        stored = ao_octahedral_direction(ao_signed_from_code(ao_unorm_code(texel.x, real(65535)), real(65535)),
+                                         ao_signed_from_code(ao_unorm_code(texel.y, real(65535)), real(65535)));
+    }
+    if (ao_rotate_normals) {
+        stored = ao_rotate(to_view, stored);
+    }
+    return ao_normalize_or(stored, vec3(real(0), real(0), real(1)));
+}

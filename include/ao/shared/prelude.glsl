@@ -1,0 +1,9 @@
+// The GLSL side of the shared language: include this first, then the headers of ao/shared.
+// The C++ side is ao/detail/scope.inc. See docs/shared-language.md.
+#define AO_FN
+#define AO_PASS
+#define AO_PRECISE precise
+#define AO_CONST const
+#define real float
+#define integer int
+#define mask bool
