@@ -8,12 +8,9 @@
 
 #include <vector>
 
-namespace ao::host
-{
-namespace
-{
-struct egl_library
-{
+namespace ao::host {
+namespace {
+struct egl_library {
     decltype(&eglGetProcAddress) proc_address = nullptr;
     decltype(&eglInitialize) initialise = nullptr;
     decltype(&eglTerminate) terminate = nullptr;
@@ -25,8 +22,8 @@ struct egl_library
     PFNEGLGETPLATFORMDISPLAYEXTPROC platform_display = nullptr;
     bool complete() const
     {
-        return proc_address && initialise && terminate && bind_api && create_context && destroy_context &&
-               make_current && platform_display;
+        return proc_address && initialise && terminate && bind_api && create_context && destroy_context && make_current &&
+               platform_display;
     }
 };
 
@@ -37,9 +34,7 @@ const egl_library& egl()
         void* handle = dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL);
         if (!handle)
             return out;
-        const auto load = [&]<class F>(F& function, const char* name) {
-            function = reinterpret_cast<F>(dlsym(handle, name));
-        };
+        const auto load = [&]<class F>(F& function, const char* name) { function = reinterpret_cast<F>(dlsym(handle, name)); };
         load(out.proc_address, "eglGetProcAddress");
         load(out.initialise, "eglInitialize");
         load(out.terminate, "eglTerminate");
@@ -47,10 +42,8 @@ const egl_library& egl()
         load(out.create_context, "eglCreateContext");
         load(out.destroy_context, "eglDestroyContext");
         load(out.make_current, "eglMakeCurrent");
-        if (out.proc_address)
-        {
-            out.query_devices =
-                reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(out.proc_address("eglQueryDevicesEXT"));
+        if (out.proc_address) {
+            out.query_devices = reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(out.proc_address("eglQueryDevicesEXT"));
             out.platform_display =
                 reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(out.proc_address("eglGetPlatformDisplayEXT"));
         }
@@ -59,14 +52,12 @@ const egl_library& egl()
     return library;
 }
 
-class egl_context final : public gl_context
-{
+class egl_context final : public gl_context {
 public:
     explicit egl_context(EGLDisplay display) : display_(display) {}
     ~egl_context() override
     {
-        if (context_ != EGL_NO_CONTEXT)
-        {
+        if (context_ != EGL_NO_CONTEXT) {
             egl().make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
             egl().destroy_context(display_, context_);
         }
@@ -77,8 +68,10 @@ public:
     {
         if (!egl().initialise(display_, nullptr, nullptr) || !egl().bind_api(EGL_OPENGL_API))
             return failure{ "no GL context: eglInitialize failed" };
-        const EGLint attributes[] = { EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
-                                      EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE };
+        const EGLint attributes[] = {
+            EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+            EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE
+        };
         context_ = egl().create_context(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
         if (context_ == EGL_NO_CONTEXT)
             return failure{ "no GL context: EGL offers no OpenGL 4.5 core profile" };
@@ -89,8 +82,7 @@ public:
 
     result<done> make_current() override
     {
-        if (!egl().bind_api(EGL_OPENGL_API) ||
-            !egl().make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
+        if (!egl().bind_api(EGL_OPENGL_API) || !egl().make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
             return failure{ "no GL context: eglMakeCurrent without a surface failed" };
         return done{};
     }
@@ -111,8 +103,7 @@ std::vector<EGLDisplay> displays()
             out.push_back(display);
     };
     EGLint count = 0;
-    if (egl().query_devices && egl().query_devices(0, nullptr, &count) && count > 0)
-    {
+    if (egl().query_devices && egl().query_devices(0, nullptr, &count) && count > 0) {
         std::vector<EGLDeviceEXT> devices(static_cast<std::size_t>(count));
         egl().query_devices(count, devices.data(), &count);
         devices.resize(static_cast<std::size_t>(count));
@@ -130,11 +121,9 @@ result<std::unique_ptr<gl_context>> create_egl_context(const std::string& device
         return failure{ "no GL context: libEGL.so.1 was not found or is too old (install libegl1)" };
     std::string reason = "no GL context: EGL has no device";
     std::string seen;
-    for (const EGLDisplay display : displays())
-    {
+    for (const EGLDisplay display : displays()) {
         auto context = std::make_unique<egl_context>(display);
-        if (auto ready = context->initialise(); !ready)
-        {
+        if (auto ready = context->initialise(); !ready) {
             reason = ready.reason();
             continue;
         }

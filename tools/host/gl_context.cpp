@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <cctype>
 
-namespace ao::host
-{
+namespace ao::host {
 bool contains_ignoring_case(const std::string& text, const std::string& part)
 {
     const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
@@ -16,8 +15,7 @@ bool contains_ignoring_case(const std::string& text, const std::string& part)
 
 result<std::unique_ptr<gl_context>> gl_context::create(const gl_options& options)
 {
-    return options.platform == gl_platform::egl ? create_egl_context(options.device)
-                                                : create_osmesa_context(options.device);
+    return options.platform == gl_platform::egl ? create_egl_context(options.device) : create_osmesa_context(options.device);
 }
 
 result<done> gl_context::describe()

@@ -4,20 +4,17 @@
 #include <memory>
 #include <string>
 
-namespace ao::host
-{
+namespace ao::host {
 using gl_proc = void (*)();
 using gl_loader = gl_proc (*)(const char* name);
 
-enum class gl_platform
-{
+enum class gl_platform {
     osmesa,
     /// Surfaceless, for real GPUs.
     egl,
 };
 
-struct gl_options
-{
+struct gl_options {
     gl_platform platform = gl_platform::osmesa;
     /// Part of GL_RENDERER, letter case ignored; egl tries its devices in order. Empty: the first that works.
     std::string device;
@@ -25,8 +22,7 @@ struct gl_options
 
 /// An OpenGL 4.5 core context without a window. The libraries are loaded when one is asked for, so that a program
 /// runs without them until then. Its thread may change by make_current there; one thread at a time.
-class gl_context
-{
+class gl_context {
 public:
     /// The new context is current on success.
     static result<std::unique_ptr<gl_context>> create(const gl_options& options = {});

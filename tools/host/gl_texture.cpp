@@ -6,12 +6,9 @@
 #include <cstring>
 #include <vector>
 
-namespace ao::host
-{
-namespace
-{
-struct layout
-{
+namespace ao::host {
+namespace {
+struct layout {
     GLenum internal;
     GLenum format;
     GLenum type;
@@ -19,8 +16,7 @@ struct layout
 
 layout layout_of(pixel_format format)
 {
-    switch (format)
-    {
+    switch (format) {
     case pixel_format::r8:
         return { GL_R8, GL_RED, GL_UNSIGNED_BYTE };
     case pixel_format::r16f:
@@ -58,9 +54,7 @@ GLenum take_error(gl_loader loader)
 {
     const auto get_error = load<PFNGLGETERRORPROC>(loader, "glGetError");
     const GLenum first = get_error();
-    for (int i = 0; i < 16 && get_error() != GL_NO_ERROR; ++i)
-    {
-    }
+    for (int i = 0; i < 16 && get_error() != GL_NO_ERROR; ++i) {}
     return first;
 }
 
@@ -72,8 +66,7 @@ failure gl_failure(const std::string& what, GLenum code)
 // The packed GL type has the depth in the high 24 bits, our memory in the low ones.
 void shift_words(std::span<std::byte> words, bool up)
 {
-    for (std::size_t i = 0; i + 4 <= words.size(); i += 4)
-    {
+    for (std::size_t i = 0; i + 4 <= words.size(); i += 4) {
         std::uint32_t word = 0;
         std::memcpy(&word, &words[i], 4);
         word = up ? word << 8 : word >> 8;
@@ -103,8 +96,8 @@ unsigned gl_internal_format(pixel_format format)
 result<gl_texture> gl_texture::create(const gl_context& context, pixel_format format, extent size)
 {
     const gl_loader loader = context.loader();
-    const std::string what = std::string("a ") + host::name(format) + " texture of " + std::to_string(size.width) +
-                             "x" + std::to_string(size.height);
+    const std::string what =
+        std::string("a ") + host::name(format) + " texture of " + std::to_string(size.width) + "x" + std::to_string(size.height);
     GLint limit = 0;
     load<PFNGLGETINTEGERVPROC>(loader, "glGetIntegerv")(GL_MAX_TEXTURE_SIZE, &limit);
     if (size.width == 0 || size.height == 0)
@@ -119,9 +112,8 @@ result<gl_texture> gl_texture::create(const gl_context& context, pixel_format fo
     self.internal_format = layout_of(format).internal;
     take_error(loader);
     load<PFNGLCREATETEXTURESPROC>(loader, "glCreateTextures")(GL_TEXTURE_2D, 1, &self.name);
-    load<PFNGLTEXTURESTORAGE2DPROC>(loader, "glTextureStorage2D")(self.name, 1, self.internal_format,
-                                                                  static_cast<GLsizei>(size.width),
-                                                                  static_cast<GLsizei>(size.height));
+    load<PFNGLTEXTURESTORAGE2DPROC>(loader, "glTextureStorage2D")(
+        self.name, 1, self.internal_format, static_cast<GLsizei>(size.width), static_cast<GLsizei>(size.height));
     const auto parameter = load<PFNGLTEXTUREPARAMETERIPROC>(loader, "glTextureParameteri");
     parameter(self.name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     parameter(self.name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
@@ -154,8 +146,7 @@ result<done> gl_texture::upload(std::span<const std::byte> pixels)
         return failure{ "upload: " + std::to_string(pixels.size()) + " bytes for a texture of " +
                         std::to_string(byte_count(format, size)) };
     std::vector<std::byte> shifted;
-    if (format == pixel_format::d24)
-    {
+    if (format == pixel_format::d24) {
         shifted.assign(pixels.begin(), pixels.end());
         shift_words(shifted, true);
         pixels = shifted;
@@ -163,9 +154,8 @@ result<done> gl_texture::upload(std::span<const std::byte> pixels)
     const layout as = layout_of(format);
     take_error(loader_);
     reset_pixel_store(loader_, 1);
-    load<PFNGLTEXTURESUBIMAGE2DPROC>(loader_, "glTextureSubImage2D")(name, 0, 0, 0, static_cast<GLsizei>(size.width),
-                                                                    static_cast<GLsizei>(size.height), as.format,
-                                                                    as.type, pixels.data());
+    load<PFNGLTEXTURESUBIMAGE2DPROC>(loader_, "glTextureSubImage2D")(
+        name, 0, 0, 0, static_cast<GLsizei>(size.width), static_cast<GLsizei>(size.height), as.format, as.type, pixels.data());
     reset_pixel_store(loader_, 4);
     if (const GLenum code = take_error(loader_); code != GL_NO_ERROR)
         return gl_failure(std::string("uploading ") + host::name(format), code);
@@ -180,8 +170,8 @@ result<done> gl_texture::download(std::span<std::byte> pixels) const
     const layout as = layout_of(format);
     take_error(loader_);
     reset_pixel_store(loader_, 1);
-    load<PFNGLGETTEXTUREIMAGEPROC>(loader_, "glGetTextureImage")(name, 0, as.format, as.type,
-                                                                static_cast<GLsizei>(pixels.size()), pixels.data());
+    load<PFNGLGETTEXTUREIMAGEPROC>(loader_, "glGetTextureImage")(name, 0, as.format, as.type, static_cast<GLsizei>(pixels.size()),
+                                                                 pixels.data());
     reset_pixel_store(loader_, 4);
     if (const GLenum code = take_error(loader_); code != GL_NO_ERROR)
         return gl_failure(std::string("downloading ") + host::name(format), code);

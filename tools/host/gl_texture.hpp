@@ -5,12 +5,10 @@
 #include <cstddef>
 #include <span>
 
-namespace ao::host
-{
+namespace ao::host {
 /// A 2-D texture with one level, nearest filter, clamped to its edge. Belongs to the context that was current when it
 /// was made; that context must be current for every call, the destructor's too.
-class gl_texture
-{
+class gl_texture {
 public:
     static result<gl_texture> create(const gl_context& context, pixel_format format, extent size);
     gl_texture(gl_texture&& other) noexcept { *this = std::move(other); }

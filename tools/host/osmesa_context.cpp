@@ -6,12 +6,9 @@
 
 #include <vector>
 
-namespace ao::host
-{
-namespace
-{
-struct osmesa_library
-{
+namespace ao::host {
+namespace {
+struct osmesa_library {
     decltype(&OSMesaCreateContextAttribs) create = nullptr;
     decltype(&OSMesaDestroyContext) destroy = nullptr;
     decltype(&OSMesaMakeCurrent) make_current = nullptr;
@@ -30,9 +27,7 @@ const osmesa_library& osmesa()
             handle = dlopen("libOSMesa.so", RTLD_NOW | RTLD_LOCAL);
         if (!handle)
             return out;
-        const auto load = [&]<class F>(F& function, const char* name) {
-            function = reinterpret_cast<F>(dlsym(handle, name));
-        };
+        const auto load = [&]<class F>(F& function, const char* name) { function = reinterpret_cast<F>(dlsym(handle, name)); };
         load(out.create, "OSMesaCreateContextAttribs");
         load(out.destroy, "OSMesaDestroyContext");
         load(out.make_current, "OSMesaMakeCurrent");
@@ -43,8 +38,7 @@ const osmesa_library& osmesa()
     return library;
 }
 
-class osmesa_context final : public gl_context
-{
+class osmesa_context final : public gl_context {
 public:
     osmesa_context() : surface_(4 * side * side) {}
     ~osmesa_context() override
@@ -55,8 +49,15 @@ public:
 
     result<done> initialise()
     {
-        const int attributes[] = { OSMESA_FORMAT, OSMESA_RGBA, OSMESA_PROFILE, OSMESA_CORE_PROFILE,
-                                   OSMESA_CONTEXT_MAJOR_VERSION, 4, OSMESA_CONTEXT_MINOR_VERSION, 5, 0 };
+        const int attributes[] = { OSMESA_FORMAT,
+                                   OSMESA_RGBA,
+                                   OSMESA_PROFILE,
+                                   OSMESA_CORE_PROFILE,
+                                   OSMESA_CONTEXT_MAJOR_VERSION,
+                                   4,
+                                   OSMESA_CONTEXT_MINOR_VERSION,
+                                   5,
+                                   0 };
         context_ = osmesa().create(attributes, nullptr);
         if (!context_)
             return failure{ "no GL context: OSMesa offers no OpenGL 4.5 core profile" };

@@ -1,11 +1,9 @@
 #include "host/pixel_format.hpp"
 
-namespace ao::host
-{
+namespace ao::host {
 std::size_t bytes_per_pixel(pixel_format format)
 {
-    switch (format)
-    {
+    switch (format) {
     case pixel_format::r8:
         return 1;
     case pixel_format::r16f:
@@ -33,8 +31,7 @@ bool is_depth(pixel_format format)
 
 const char* name(pixel_format format)
 {
-    switch (format)
-    {
+    switch (format) {
     case pixel_format::r8:
         return "r8";
     case pixel_format::r16f:

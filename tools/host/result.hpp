@@ -3,18 +3,15 @@
 #include <string>
 #include <utility>
 
-namespace ao::host
-{
+namespace ao::host {
 /// One line without a full stop, fit to stand behind "ao: ".
-struct failure
-{
+struct failure {
     std::string text;
 };
 
 /// A value, or the reason why there is none.
 template <class T>
-class [[nodiscard]] result
-{
+class [[nodiscard]] result {
 public:
     result(T value) : value_(std::move(value)) {}
     result(failure reason) : reason_(std::move(reason)) {}
@@ -31,7 +28,5 @@ private:
     failure reason_;
 };
 
-struct done
-{
-};
+struct done {};
 }

@@ -5,13 +5,10 @@
 #include <unordered_set>
 #include <utility>
 
-namespace ao::host
-{
-namespace
-{
+namespace ao::host {
+namespace {
 // Numbers from the SPIR-V 1.6 specification, 3.42, and from GLSL.std.450.
-enum opcode : unsigned
-{
+enum opcode : unsigned {
     op_name = 5,
     op_ext_inst_import = 11,
     op_ext_inst = 12,
@@ -24,8 +21,7 @@ enum opcode : unsigned
 constexpr std::uint32_t no_contraction = 42;
 
 constexpr std::pair<unsigned, const char*> contractible[] = {
-    { 129, "OpFAdd" }, { 131, "OpFSub" }, { 133, "OpFMul" },
-    { 136, "OpFDiv" }, { 142, "OpVectorTimesScalar" },
+    { 129, "OpFAdd" }, { 131, "OpFSub" }, { 133, "OpFMul" }, { 136, "OpFDiv" }, { 142, "OpVectorTimesScalar" },
 };
 constexpr std::pair<unsigned, const char*> forbidden[] = {
     { 140, "OpFRem" },
@@ -40,19 +36,19 @@ constexpr std::pair<unsigned, const char*> forbidden[] = {
 // Everything else of GLSL.std.450 has a tolerance or an open order of evaluation. Sqrt is correctly rounded on the
 // software drivers and inside the bounds of math<interval> on hardware.
 constexpr std::pair<unsigned, const char*> exact_ext[] = {
-    { 2, "RoundEven" }, { 3, "Trunc" },     { 4, "FAbs" },      { 5, "SAbs" },     { 6, "FSign" },    { 7, "SSign" },
-    { 8, "Floor" },     { 9, "Ceil" },      { 31, "Sqrt" },     { 37, "FMin" },    { 38, "UMin" },    { 39, "SMin" },
-    { 40, "FMax" },     { 41, "UMax" },     { 42, "SMax" },     { 43, "FClamp" },  { 44, "UClamp" },  { 45, "SClamp" },
-    { 48, "Step" },     { 73, "FindILsb" }, { 74, "FindSMsb" }, { 75, "FindUMsb" }, { 79, "NMin" },    { 80, "NMax" },
-    { 81, "NClamp" },
+    { 2, "RoundEven" }, { 3, "Trunc" },     { 4, "FAbs" },    { 5, "SAbs" },  { 6, "FSign" },
+    { 7, "SSign" },     { 8, "Floor" },     { 9, "Ceil" },    { 31, "Sqrt" }, { 37, "FMin" },
+    { 38, "UMin" },     { 39, "SMin" },     { 40, "FMax" },   { 41, "UMax" }, { 42, "SMax" },
+    { 43, "FClamp" },   { 44, "UClamp" },   { 45, "SClamp" }, { 48, "Step" }, { 73, "FindILsb" },
+    { 74, "FindSMsb" }, { 75, "FindUMsb" }, { 79, "NMin" },   { 80, "NMax" }, { 81, "NClamp" },
 };
 constexpr std::pair<unsigned, const char*> inexact_ext[] = {
-    { 1, "Round" },        { 10, "Fract" },    { 11, "Radians" },   { 12, "Degrees" },      { 13, "Sin" },
-    { 14, "Cos" },         { 15, "Tan" },      { 16, "Asin" },      { 17, "Acos" },         { 18, "Atan" },
-    { 25, "Atan2" },       { 26, "Pow" },      { 27, "Exp" },       { 28, "Log" },          { 29, "Exp2" },
-    { 30, "Log2" },        { 32, "InverseSqrt" }, { 33, "Determinant" }, { 34, "MatrixInverse" }, { 46, "FMix" },
-    { 49, "SmoothStep" },  { 50, "Fma" },      { 66, "Length" },    { 67, "Distance" },     { 68, "Cross" },
-    { 69, "Normalize" },   { 70, "FaceForward" }, { 71, "Reflect" }, { 72, "Refract" },
+    { 1, "Round" },       { 10, "Fract" },       { 11, "Radians" },     { 12, "Degrees" },       { 13, "Sin" },
+    { 14, "Cos" },        { 15, "Tan" },         { 16, "Asin" },        { 17, "Acos" },          { 18, "Atan" },
+    { 25, "Atan2" },      { 26, "Pow" },         { 27, "Exp" },         { 28, "Log" },           { 29, "Exp2" },
+    { 30, "Log2" },       { 32, "InverseSqrt" }, { 33, "Determinant" }, { 34, "MatrixInverse" }, { 46, "FMix" },
+    { 49, "SmoothStep" }, { 50, "Fma" },         { 66, "Length" },      { 67, "Distance" },      { 68, "Cross" },
+    { 69, "Normalize" },  { 70, "FaceForward" }, { 71, "Reflect" },     { 72, "Refract" },
 };
 
 template <std::size_t N>
@@ -68,8 +64,7 @@ std::string literal_string(std::span<const std::uint32_t> words)
 {
     std::string out;
     for (const std::uint32_t word : words)
-        for (unsigned shift = 0; shift < 32; shift += 8)
-        {
+        for (unsigned shift = 0; shift < 32; shift += 8) {
             const char c = static_cast<char>((word >> shift) & 0xffu);
             if (c == '\0')
                 return out;
@@ -78,8 +73,7 @@ std::string literal_string(std::span<const std::uint32_t> words)
     return out;
 }
 
-struct reader
-{
+struct reader {
     std::unordered_map<std::uint32_t, std::string> names;
     std::unordered_set<std::uint32_t> uncontracted;
     std::unordered_set<std::uint32_t> glsl_imports;
@@ -96,8 +90,7 @@ struct reader
             fault(std::string(name) + " leaves its order of evaluation open");
         if (op >= op_dpdx && op <= op_fwidth_coarse)
             fault("a derivative, which is an estimate");
-        if (op == op_ext_inst && i.size() > 4 && !(glsl_imports.contains(i[3]) && find(exact_ext, i[4])))
-        {
+        if (op == op_ext_inst && i.size() > 4 && !(glsl_imports.contains(i[3]) && find(exact_ext, i[4]))) {
             const char* name = glsl_imports.contains(i[3]) ? find(inexact_ext, i[4]) : nullptr;
             fault("OpExtInst " + (name ? std::string(name) : std::to_string(i[4])) + " is not exactly defined");
         }
@@ -111,8 +104,7 @@ struct reader
             uncontracted.insert(i[1]);
         else if (op == op_ext_inst_import && i.size() > 2 && literal_string(i.subspan(2)) == "GLSL.std.450")
             glsl_imports.insert(i[1]);
-        else if (op == op_function && i.size() > 2)
-        {
+        else if (op == op_function && i.size() > 2) {
             const std::string& mangled = names[i[2]];
             if (mangled.empty())
                 faults.emplace_back("a function without a name: compiled without OpName?");
@@ -131,14 +123,15 @@ std::vector<std::string> inexact_operations(std::span<const std::uint32_t> modul
     if (module.size() < 5 || module[0] != 0x07230203u)
         return { "not a SPIR-V module" };
     reader state;
-    for (std::size_t at = 5; at < module.size();)
-    {
+    for (std::size_t at = 5; at < module.size();) {
         const std::size_t length = module[at] >> 16;
         if (length == 0 || length > module.size() - at)
             return { "a truncated SPIR-V module" };
         state.instruction(module[at] & 0xffffu, module.subspan(at, length));
         at += length;
     }
+    if (!state.function.empty())
+        return { "a truncated SPIR-V module" };
     return state.faults;
 }
 }

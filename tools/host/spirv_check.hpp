@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace ao::host
-{
+namespace ao::host {
 /// What keeps a SPIR-V module from giving the same bits everywhere. Inside every function whose name starts with
 /// `ao_`: a floating-point + - * / or vector times scalar without NoContraction, and every operation whose order or
 /// precision is left open (dot, matrix products, all extended instructions but the exactly defined ones).

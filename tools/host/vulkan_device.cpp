@@ -6,10 +6,8 @@
 #include <cctype>
 #include <cstring>
 
-namespace ao::host
-{
-namespace
-{
+namespace ao::host {
+namespace {
 constexpr const char* validation_layer = "VK_LAYER_KHRONOS_validation";
 
 failure vulkan_failure(const char* what, VkResult code)
@@ -31,9 +29,8 @@ bool has_validation_layer()
     vkEnumerateInstanceLayerProperties(&count, nullptr);
     std::vector<VkLayerProperties> layers(count);
     vkEnumerateInstanceLayerProperties(&count, layers.data());
-    return std::any_of(layers.begin(), layers.end(), [](const VkLayerProperties& layer) {
-        return std::strcmp(layer.layerName, validation_layer) == 0;
-    });
+    return std::any_of(layers.begin(), layers.end(),
+                       [](const VkLayerProperties& layer) { return std::strcmp(layer.layerName, validation_layer) == 0; });
 }
 
 result<VkInstance> create_instance(vulkan_messages* messages)
@@ -51,8 +48,7 @@ result<VkInstance> create_instance(vulkan_messages* messages)
     const VkValidationFeatureEnableEXT enabled[] = { VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT };
     VkValidationFeaturesEXT validation{};
     VkDebugUtilsMessengerCreateInfoEXT messenger{};
-    if (messages)
-    {
+    if (messages) {
         if (!has_validation_layer())
             return failure{ std::string("no ") + validation_layer + " (install vulkan-validationlayers)" };
         messenger = messages->create_info();
@@ -76,8 +72,7 @@ result<VkInstance> create_instance(vulkan_messages* messages)
     return instance;
 }
 
-struct candidate
-{
+struct candidate {
     VkPhysicalDevice device;
     VkPhysicalDeviceProperties properties;
 };
@@ -91,8 +86,7 @@ std::vector<candidate> enumerate(VkInstance instance)
     vkEnumeratePhysicalDevices(instance, &count, devices.data());
     devices.resize(count);
     std::vector<candidate> out;
-    for (const VkPhysicalDevice device : devices)
-    {
+    for (const VkPhysicalDevice device : devices) {
         out.push_back({ device, {} });
         vkGetPhysicalDeviceProperties(device, &out.back().properties);
     }
@@ -107,8 +101,7 @@ result<candidate> pick(const std::vector<candidate>& all, const std::string& wan
         return wanted.empty() ? c.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU
                               : lower(c.properties.deviceName).find(lower(wanted)) != std::string::npos;
     });
-    if (found == all.end() && !wanted.empty())
-    {
+    if (found == all.end() && !wanted.empty()) {
         std::string text = "no Vulkan device named \"" + wanted + "\"; there is ";
         for (std::size_t i = 0; i < all.size(); ++i)
             text += (i ? ", \"" : "\"") + std::string(all[i].properties.deviceName) + "\"";
@@ -169,8 +162,7 @@ result<std::unique_ptr<vulkan_device>> vulkan_device::create(const vulkan_option
 
     const int family = find_queue_family(self->physical);
     if (family < 0)
-        return failure{ "the Vulkan device \"" + std::string(self->name()) +
-                        "\" has no queue for graphics and compute" };
+        return failure{ "the Vulkan device \"" + std::string(self->name()) + "\" has no queue for graphics and compute" };
     self->queue_family = static_cast<uint32_t>(family);
 
     const float priority = 1.0f;
@@ -199,8 +191,7 @@ result<std::unique_ptr<vulkan_device>> vulkan_device::create(const vulkan_option
 
 vulkan_device::~vulkan_device()
 {
-    if (device)
-    {
+    if (device) {
         vkDeviceWaitIdle(device);
         vkDestroyCommandPool(device, pool_, nullptr);
         vkDestroyDevice(device, nullptr);
@@ -232,13 +223,11 @@ result<done> vulkan_device::submit(const std::function<void(VkCommandBuffer)>& r
     begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     code = vkBeginCommandBuffer(commands, &begin);
-    if (code == VK_SUCCESS)
-    {
+    if (code == VK_SUCCESS) {
         record(commands);
         code = vkEndCommandBuffer(commands);
     }
-    if (code == VK_SUCCESS)
-    {
+    if (code == VK_SUCCESS) {
         VkSubmitInfo info{};
         info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
         info.commandBufferCount = 1;

@@ -11,10 +11,8 @@
 #include <string_view>
 #include <vector>
 
-namespace ao::host
-{
-struct vulkan_options
-{
+namespace ao::host {
+struct vulkan_options {
     /// Part of the device's name, letter case ignored. Empty: the CPU device (lavapipe), or else the first one.
     std::string device;
     /// The validation layer with synchronisation validation. A missing layer is a failure, not a silent no.
@@ -24,8 +22,7 @@ struct vulkan_options
 class vulkan_messages;
 
 /// Instance, device and one queue for graphics and compute. Everything made from it must go before it.
-class vulkan_device
-{
+class vulkan_device {
 public:
     static result<std::unique_ptr<vulkan_device>> create(const vulkan_options& options = {});
     ~vulkan_device();
@@ -61,8 +58,7 @@ private:
 /// The names of all devices, in the driver's order.
 result<std::vector<std::string>> vulkan_device_names();
 
-class vulkan_buffer
-{
+class vulkan_buffer {
 public:
     /// Host-visible and coherent, mapped for its whole life.
     static result<vulkan_buffer> create(vulkan_device& device, VkDeviceSize size, VkBufferUsageFlags usage);
@@ -81,10 +77,9 @@ private:
 
 VkFormat vulkan_format(pixel_format format);
 
-/// A 2-D image with one level and its view (for d24 in whichever of X8_D24 and D24_S8 the device has; the view shows depth
-/// alone). Usage: transfer, sampled, and storage, colour or depth attachment where the format allows it.
-class vulkan_image
-{
+/// A 2-D image with one level and its view (for d24 in whichever of X8_D24 and D24_S8 the device has; the view shows
+/// depth alone). Usage: transfer, sampled, and storage, colour or depth attachment where the format allows it.
+class vulkan_image {
 public:
     static result<vulkan_image> create(vulkan_device& device, pixel_format format, extent size);
     vulkan_image(vulkan_image&& other) noexcept { *this = std::move(other); }
@@ -103,8 +98,7 @@ public:
     VkImageAspectFlags aspects() const;
 
     /// Rows in memory order, no flip. The image ends in `after`.
-    result<done> upload(std::span<const std::byte> pixels,
-                        VkImageLayout after = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    result<done> upload(std::span<const std::byte> pixels, VkImageLayout after = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     /// Keeps the layout; the image must have been written.
     result<done> download(std::span<std::byte> pixels);
     /// Waits for everything before and holds up everything after; keeps the content.

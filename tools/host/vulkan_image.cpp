@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cstring>
 
-namespace ao::host
-{
+namespace ao::host {
 VkFormat vulkan_format(pixel_format format)
 {
-    switch (format)
-    {
+    switch (format) {
     case pixel_format::r8:
         return VK_FORMAT_R8_UNORM;
     case pixel_format::r16f:
@@ -35,8 +33,7 @@ VkFormat vulkan_format(pixel_format format)
     return VK_FORMAT_UNDEFINED;
 }
 
-namespace
-{
+namespace {
 VkFormatFeatureFlags format_features(VkPhysicalDevice physical, VkFormat format)
 {
     VkFormatProperties properties{};
@@ -46,8 +43,7 @@ VkFormatFeatureFlags format_features(VkPhysicalDevice physical, VkFormat format)
 
 VkImageUsageFlags usable_as(VkFormatFeatureFlags features)
 {
-    VkImageUsageFlags usage =
-        VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+    VkImageUsageFlags usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
     if (features & VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT)
         usage |= VK_IMAGE_USAGE_STORAGE_BIT;
     if (features & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT)
@@ -59,9 +55,8 @@ VkImageUsageFlags usable_as(VkFormatFeatureFlags features)
 
 std::string code_text(VkResult code)
 {
-    return code == VK_ERROR_OUT_OF_DEVICE_MEMORY || code == VK_ERROR_OUT_OF_HOST_MEMORY
-               ? std::string("out of memory")
-               : "VkResult " + std::to_string(code);
+    return code == VK_ERROR_OUT_OF_DEVICE_MEMORY || code == VK_ERROR_OUT_OF_HOST_MEMORY ? std::string("out of memory")
+                                                                                        : "VkResult " + std::to_string(code);
 }
 
 VkBufferImageCopy whole_image(VkImageAspectFlags aspect, extent size)
@@ -92,8 +87,8 @@ result<vulkan_buffer> vulkan_buffer::create(vulkan_device& device, VkDeviceSize 
 
     VkMemoryRequirements needs{};
     vkGetBufferMemoryRequirements(device.device, self.buffer, &needs);
-    const int type = device.memory_type(needs.memoryTypeBits,
-                                        VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
+    const int type =
+        device.memory_type(needs.memoryTypeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
     VkMemoryAllocateInfo allocate{};
     allocate.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
     allocate.allocationSize = needs.size;
@@ -129,8 +124,8 @@ vulkan_buffer::~vulkan_buffer()
 
 result<vulkan_image> vulkan_image::create(vulkan_device& device, pixel_format format, extent size)
 {
-    const std::string what = std::string("a ") + host::name(format) + " image of " + std::to_string(size.width) + "x" +
-                             std::to_string(size.height);
+    const std::string what =
+        std::string("a ") + host::name(format) + " image of " + std::to_string(size.width) + "x" + std::to_string(size.height);
     const uint32_t limit = device.properties.limits.maxImageDimension2D;
     if (size.width == 0 || size.height == 0)
         return failure{ what + " has no pixels" };
@@ -144,8 +139,7 @@ result<vulkan_image> vulkan_image::create(vulkan_device& device, pixel_format fo
     self.size = size;
     self.vk_format = vulkan_format(format);
     VkFormatFeatureFlags features = format_features(device.physical, self.vk_format);
-    if (format == pixel_format::d24 && !(features & VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT))
-    {
+    if (format == pixel_format::d24 && !(features & VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT)) {
         self.vk_format = VK_FORMAT_D24_UNORM_S8_UINT;
         features = format_features(device.physical, self.vk_format);
     }
@@ -235,8 +229,8 @@ void vulkan_image::record_transition(VkCommandBuffer commands, VkImageLayout aft
     barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
     barrier.image = image;
     barrier.subresourceRange = { aspects(), 0, 1, 0, 1 };
-    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0,
-                         nullptr, 0, nullptr, 1, &barrier);
+    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0, nullptr, 0,
+                         nullptr, 1, &barrier);
     layout = after;
 }
 
@@ -282,8 +276,8 @@ result<done> vulkan_image::download(std::span<std::byte> pixels)
         to_host.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
         to_host.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
         to_host.dstAccessMask = VK_ACCESS_HOST_READ_BIT;
-        vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &to_host, 0,
-                             nullptr, 0, nullptr);
+        vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &to_host, 0, nullptr, 0,
+                             nullptr);
     });
     if (!copied)
         return copied;

@@ -5,11 +5,9 @@
 #include <string>
 #include <vector>
 
-namespace ao::host
-{
+namespace ao::host {
 /// What the layers say, from any thread.
-class vulkan_messages
-{
+class vulkan_messages {
 public:
     /// To be chained to VkInstanceCreateInfo too, so that creation and destruction of the instance are covered.
     VkDebugUtilsMessengerCreateInfoEXT create_info();

@@ -1,7 +1,6 @@
 #include "host/vulkan_timer.hpp"
 
-namespace ao::host
-{
+namespace ao::host {
 result<vulkan_timer> vulkan_timer::create(vulkan_device& device, uint32_t marks)
 {
     uint32_t count = 0;
@@ -60,9 +59,8 @@ result<std::vector<double>> vulkan_timer::read() const
     if (next_ < 2)
         return failure{ "a timer with fewer than two marks" };
     std::vector<uint64_t> ticks(next_);
-    const VkResult code =
-        vkGetQueryPoolResults(device_, pool_, 0, next_, ticks.size() * sizeof(uint64_t), ticks.data(),
-                              sizeof(uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
+    const VkResult code = vkGetQueryPoolResults(device_, pool_, 0, next_, ticks.size() * sizeof(uint64_t), ticks.data(),
+                                                sizeof(uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
     if (code != VK_SUCCESS)
         return failure{ "vkGetQueryPoolResults failed with VkResult " + std::to_string(code) };
     std::vector<double> milliseconds;

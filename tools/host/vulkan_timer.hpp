@@ -1,11 +1,9 @@
 #pragma once
 #include "host/vulkan_device.hpp"
 
-namespace ao::host
-{
+namespace ao::host {
 /// Times stretches of a command buffer on the device's own clock.
-class vulkan_timer
-{
+class vulkan_timer {
 public:
     /// `marks` points in time, which bound marks - 1 stretches.
     static result<vulkan_timer> create(vulkan_device& device, uint32_t marks);
