@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+using namespace ao;
 using namespace ao::host;
 
 namespace {

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+using namespace ao;
 using namespace ao::host;
 using Catch::Matchers::Contains;
 

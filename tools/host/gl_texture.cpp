@@ -19,8 +19,6 @@ layout layout_of(pixel_format format)
     switch (format) {
     case pixel_format::r8:
         return { GL_R8, GL_RED, GL_UNSIGNED_BYTE };
-    case pixel_format::r16f:
-        return { GL_R16F, GL_RED, GL_HALF_FLOAT };
     case pixel_format::r32f:
         return { GL_R32F, GL_RED, GL_FLOAT };
     case pixel_format::rg32f:
@@ -33,8 +31,6 @@ layout layout_of(pixel_format format)
         return { GL_RGB10_A2, GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV };
     case pixel_format::rg16:
         return { GL_RG16, GL_RG, GL_UNSIGNED_SHORT };
-    case pixel_format::rg16_snorm:
-        return { GL_RG16_SNORM, GL_RG, GL_SHORT };
     case pixel_format::d32f:
         return { GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT };
     case pixel_format::d24:

@@ -1,29 +1,6 @@
 #include "host/pixel_format.hpp"
 
 namespace ao::host {
-std::size_t bytes_per_pixel(pixel_format format)
-{
-    switch (format) {
-    case pixel_format::r8:
-        return 1;
-    case pixel_format::r16f:
-        return 2;
-    case pixel_format::r32f:
-    case pixel_format::rgb10a2:
-    case pixel_format::rg16:
-    case pixel_format::rg16_snorm:
-    case pixel_format::d32f:
-    case pixel_format::d24:
-        return 4;
-    case pixel_format::rg32f:
-    case pixel_format::rgba16f:
-        return 8;
-    case pixel_format::rgba32f:
-        return 16;
-    }
-    return 0;
-}
-
 bool is_depth(pixel_format format)
 {
     return format == pixel_format::d32f || format == pixel_format::d24;
@@ -34,8 +11,6 @@ const char* name(pixel_format format)
     switch (format) {
     case pixel_format::r8:
         return "r8";
-    case pixel_format::r16f:
-        return "r16f";
     case pixel_format::r32f:
         return "r32f";
     case pixel_format::rg32f:
@@ -48,8 +23,6 @@ const char* name(pixel_format format)
         return "rgb10a2";
     case pixel_format::rg16:
         return "rg16";
-    case pixel_format::rg16_snorm:
-        return "rg16_snorm";
     case pixel_format::d32f:
         return "d32f";
     case pixel_format::d24:

@@ -1,27 +1,19 @@
 #pragma once
+#include "ao/format.hpp"
+
 #include <cstddef>
 
 namespace ao::host {
-/// Formats that a G-buffer, a map or a depth buffer comes in. In memory a pixel is its components in order, native
-/// byte order, rows without padding. Packed ones: rgb10a2 is one 32-bit word with r in the low 10 bits and a in the
-/// top 2; d24 is one 32-bit word with the depth in the low 24 bits, the rest written as anything and read as 0.
-enum class pixel_format {
-    r8,
-    r16f,
-    r32f,
-    rg32f,
-    rgba16f,
-    rgba32f,
-    rgb10a2,
-    rg16,
-    rg16_snorm,
-    d32f,
-    d24,
-};
-
-std::size_t bytes_per_pixel(pixel_format format);
+// Memory of every helper here is what ao/format.hpp says, in native byte order, rows without padding. Packed formats:
+// rgb10a2 is one 32-bit word with r in the low 10 bits and a in the top 2; d24 has the depth in the low 24 bits, the rest
+// is written as anything and read as 0.
 bool is_depth(pixel_format format);
 const char* name(pixel_format format);
+
+inline constexpr pixel_format all_pixel_formats[] = {
+    pixel_format::r32f, pixel_format::rg32f, pixel_format::rgba16f, pixel_format::rgba32f, pixel_format::rgb10a2,
+    pixel_format::rg16, pixel_format::d32f,  pixel_format::d24,     pixel_format::r8,
+};
 
 struct extent {
     unsigned width = 0;
@@ -31,6 +23,6 @@ struct extent {
 
 inline std::size_t byte_count(pixel_format format, extent size)
 {
-    return bytes_per_pixel(format) * size.width * size.height;
+    return static_cast<std::size_t>(bytes_per_pixel(format)) * size.width * size.height;
 }
 }

@@ -4,12 +4,12 @@
 #include <utility>
 
 namespace ao::host {
-/// One line without a full stop, fit to stand behind "ao: ".
+// One line without a full stop, fit to stand behind "ao: ".
 struct failure {
     std::string text;
 };
 
-/// A value, or the reason why there is none.
+// A value, or the reason why there is none.
 template <class T>
 class [[nodiscard]] result {
 public:

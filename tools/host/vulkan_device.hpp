@@ -13,15 +13,15 @@
 
 namespace ao::host {
 struct vulkan_options {
-    /// Part of the device's name, letter case ignored. Empty: the CPU device (lavapipe), or else the first one.
+    // Part of the device's name, letter case ignored. Empty: the CPU device (lavapipe), or else the first one.
     std::string device;
-    /// The validation layer with synchronisation validation. A missing layer is a failure, not a silent no.
+    // The validation layer with synchronisation validation. A missing layer is a failure, not a silent no.
     bool validation = false;
 };
 
 class vulkan_messages;
 
-/// Instance, device and one queue for graphics and compute. Everything made from it must go before it.
+// Instance, device and one queue for graphics and compute. Everything made from it must go before it.
 class vulkan_device {
 public:
     static result<std::unique_ptr<vulkan_device>> create(const vulkan_options& options = {});
@@ -35,18 +35,18 @@ public:
     VkQueue queue = VK_NULL_HANDLE;
     uint32_t queue_family = 0;
     VkPhysicalDeviceProperties properties{};
-    /// What was switched on; nothing outside Vulkan 1.1 core, and only what the device has.
+    // What was switched on; nothing outside Vulkan 1.1 core, and only what the device has.
     VkPhysicalDeviceFeatures features{};
 
     std::string_view name() const { return properties.deviceName; }
 
-    /// Warnings and errors of the layers since creation, one line each. Empty unless validation is on.
+    // Warnings and errors of the layers since creation, one line each. Empty unless validation is on.
     std::vector<std::string> messages() const;
 
-    /// Records once, submits, and waits until the queue has finished.
+    // Records once, submits, and waits until the queue has finished.
     result<done> submit(const std::function<void(VkCommandBuffer)>& record);
 
-    /// Index of a memory type among `allowed` that has all `wanted` flags; negative when there is none.
+    // Index of a memory type among `allowed` that has all `wanted` flags; negative when there is none.
     int memory_type(uint32_t allowed, VkMemoryPropertyFlags wanted) const;
 
 private:
@@ -55,12 +55,12 @@ private:
     std::unique_ptr<vulkan_messages> messages_;
 };
 
-/// The names of all devices, in the driver's order.
+// The names of all devices, in the driver's order.
 result<std::vector<std::string>> vulkan_device_names();
 
 class vulkan_buffer {
 public:
-    /// Host-visible and coherent, mapped for its whole life.
+    // Host-visible and coherent, mapped for its whole life.
     static result<vulkan_buffer> create(vulkan_device& device, VkDeviceSize size, VkBufferUsageFlags usage);
     vulkan_buffer(vulkan_buffer&& other) noexcept { *this = std::move(other); }
     vulkan_buffer& operator=(vulkan_buffer&& other) noexcept;
@@ -77,8 +77,8 @@ private:
 
 VkFormat vulkan_format(pixel_format format);
 
-/// A 2-D image with one level and its view (for d24 in whichever of X8_D24 and D24_S8 the device has; the view shows
-/// depth alone). Usage: transfer, sampled, and storage, colour or depth attachment where the format allows it.
+// A 2-D image with one level and its view (for d24 in whichever of X8_D24 and D24_S8 the device has; the view shows
+// depth alone). Usage: transfer, sampled, and storage, colour or depth attachment where the format allows it.
 class vulkan_image {
 public:
     static result<vulkan_image> create(vulkan_device& device, pixel_format format, extent size);
@@ -92,16 +92,16 @@ public:
     VkImageUsageFlags usage = 0;
     pixel_format format = pixel_format::r32f;
     extent size;
-    /// The layout between submissions; whoever changes it in a command buffer of its own says so here.
+    // The layout between submissions; whoever changes it in a command buffer of its own says so here.
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
 
     VkImageAspectFlags aspects() const;
 
-    /// Rows in memory order, no flip. The image ends in `after`.
+    // Rows in memory order, no flip. The image ends in `after`.
     result<done> upload(std::span<const std::byte> pixels, VkImageLayout after = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-    /// Keeps the layout; the image must have been written.
+    // Keeps the layout; the image must have been written.
     result<done> download(std::span<std::byte> pixels);
-    /// Waits for everything before and holds up everything after; keeps the content.
+    // Waits for everything before and holds up everything after; keeps the content.
     void record_transition(VkCommandBuffer commands, VkImageLayout after);
     result<done> transition(VkImageLayout after);
 

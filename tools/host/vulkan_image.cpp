@@ -9,8 +9,6 @@ VkFormat vulkan_format(pixel_format format)
     switch (format) {
     case pixel_format::r8:
         return VK_FORMAT_R8_UNORM;
-    case pixel_format::r16f:
-        return VK_FORMAT_R16_SFLOAT;
     case pixel_format::r32f:
         return VK_FORMAT_R32_SFLOAT;
     case pixel_format::rg32f:
@@ -23,8 +21,6 @@ VkFormat vulkan_format(pixel_format format)
         return VK_FORMAT_A2B10G10R10_UNORM_PACK32;
     case pixel_format::rg16:
         return VK_FORMAT_R16G16_UNORM;
-    case pixel_format::rg16_snorm:
-        return VK_FORMAT_R16G16_SNORM;
     case pixel_format::d32f:
         return VK_FORMAT_D32_SFLOAT;
     case pixel_format::d24:

@@ -6,10 +6,10 @@
 #include <vector>
 
 namespace ao::host {
-/// What the layers say, from any thread.
+// What the layers say, from any thread.
 class vulkan_messages {
 public:
-    /// To be chained to VkInstanceCreateInfo too, so that creation and destruction of the instance are covered.
+    // To be chained to VkInstanceCreateInfo too, so that creation and destruction of the instance are covered.
     VkDebugUtilsMessengerCreateInfoEXT create_info();
     void attach(VkInstance instance);
     void detach(VkInstance instance);
