@@ -62,3 +62,27 @@ function(ao_add_header_test)
         set_tests_properties(headers_alone PROPERTIES LABELS static)
     endif()
 endfunction()
+
+# ao_add_consumers(component…): the project of tests/consumers/KIND against these components.
+function(ao_add_consumers)
+    set(flags "${CMAKE_CXX_FLAGS}")
+    if(AO_SANITIZE)
+        string(APPEND flags " -fsanitize=${AO_SANITIZE}")
+    endif()
+    if(AO_COVERAGE)
+        string(APPEND flags " --coverage")
+    endif()
+    foreach(kind IN ITEMS find_package add_subdirectory)
+        set(build_tree "")
+        if(kind STREQUAL "find_package")
+            set(build_tree "${PROJECT_BINARY_DIR}")
+        endif()
+        add_test(NAME consumer_${kind}
+            COMMAND "${CMAKE_COMMAND}" "-DPROJECT=${CMAKE_CURRENT_SOURCE_DIR}/consumers/${kind}"
+                    "-DDIR=${CMAKE_CURRENT_BINARY_DIR}/consumers/${kind}" "-DBUILD_TREE=${build_tree}"
+                    "-DSOURCE=${PROJECT_SOURCE_DIR}" "-DCOMPONENTS=${ARGN}" "-DCOMPILER=${CMAKE_CXX_COMPILER}"
+                    "-DFLAGS=${flags}" -P "${CMAKE_CURRENT_SOURCE_DIR}/consumers/consumer.cmake")
+        set_tests_properties(consumer_${kind} PROPERTIES
+            LABELS consumers TIMEOUT 1200 ENVIRONMENT "${AO_TEST_ENVIRONMENT}")
+    endforeach()
+endfunction()

@@ -1,0 +1,32 @@
+# Script: builds and runs the project in PROJECT as a stranger would, in DIR. With BUILD_TREE the package is first
+# installed from there. What reaches the consumer's own files must be the library, not its warnings.
+file(REMOVE_RECURSE "${DIR}")
+file(MAKE_DIRECTORY "${DIR}")
+function(run)
+    execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE said ERROR_VARIABLE said)
+    if(NOT code EQUAL 0)
+        list(JOIN ARGN " " command)
+        message(FATAL_ERROR "${command}\n${said}")
+    endif()
+endfunction()
+
+set(arguments "-DCMAKE_CXX_COMPILER=${COMPILER}" "-DCMAKE_CXX_FLAGS=${FLAGS}" -DCMAKE_BUILD_TYPE=Debug
+    -DCMAKE_EXPORT_COMPILE_COMMANDS=ON "-DAO_COMPONENTS=${COMPONENTS}" "-DAO_SOURCE=${SOURCE}")
+if(BUILD_TREE)
+    run("${CMAKE_COMMAND}" --install "${BUILD_TREE}" --prefix "${DIR}/prefix")
+    list(APPEND arguments "-DCMAKE_PREFIX_PATH=${DIR}/prefix")
+endif()
+run("${CMAKE_COMMAND}" -S "${PROJECT}" -B "${DIR}/build" -G Ninja ${arguments})
+run("${CMAKE_COMMAND}" --build "${DIR}/build" -j2)
+run("${CMAKE_CTEST_COMMAND}" --test-dir "${DIR}/build" --output-on-failure)
+
+file(READ "${DIR}/build/compile_commands.json" database)
+string(JSON count LENGTH "${database}")
+math(EXPR last "${count} - 1")
+foreach(i RANGE ${last})
+    string(JSON file GET "${database}" ${i} file)
+    string(JSON command GET "${database}" ${i} command)
+    if(file MATCHES "/tests/consumers/" AND command MATCHES "-Wall|-Werror|-ffp-contract")
+        message(FATAL_ERROR "the library's own flags reach its user: ${command}")
+    endif()
+endforeach()
