@@ -3,9 +3,9 @@
 
 #include <cassert>
 #include <cstddef>
+#include <optional>
 #include <string_view>
 #include <utility>
-#include <variant>
 
 namespace ao {
 
@@ -49,21 +49,21 @@ struct success {};
 template <class T>
 class [[nodiscard]] result {
 public:
-    constexpr result(T value) : state_(std::in_place_index<0>, std::move(value)) {}
-    constexpr result(const ao::error& e) : state_(std::in_place_index<1>, e) {}
+    constexpr result(T value) : value_(std::move(value)) {}
+    constexpr result(const ao::error& e) : error_(e) {}
 
-    constexpr bool has_value() const { return state_.index() == 0; }
+    constexpr bool has_value() const { return value_.has_value(); }
     constexpr explicit operator bool() const { return has_value(); }
     // Precondition: has_value().
     constexpr T& value()
     {
         assert(has_value());
-        return *std::get_if<0>(&state_);
+        return *value_;
     }
     constexpr const T& value() const
     {
         assert(has_value());
-        return *std::get_if<0>(&state_);
+        return *value_;
     }
     constexpr T& operator*() { return value(); }
     constexpr const T& operator*() const { return value(); }
@@ -73,11 +73,13 @@ public:
     constexpr const ao::error& error() const
     {
         assert(!has_value());
-        return *std::get_if<1>(&state_);
+        return *error_;
     }
 
 private:
-    std::variant<T, ao::error> state_;
+    // Not a variant: g++ 12 refuses std::get_if on temporaries in constant expressions.
+    std::optional<T> value_;
+    std::optional<ao::error> error_;
 };
 
 } // namespace ao

@@ -18,12 +18,12 @@ AO_FN int ao_halton_digits(int base)
 // base^-D of the digits above.
 AO_FN real ao_halton_scale(int base)
 {
-    return base == 2    ? real(4.6566128730773926e-10)
+    return base == 2    ? real(4.656612873077393e-10)
            : base == 3  ? real(2.8679719907924413e-10)
            : base == 5  ? real(8.192e-10)
-           : base == 7  ? real(5.0573702073847455e-10)
-           : base == 11 ? real(4.2409761837248455e-10)
-                        : real(1.2258920278907002e-9);
+           : base == 7  ? real(5.057333106630622e-10)
+           : base == 11 ? real(4.2409761837248493e-10)
+                        : real(1.2258947398402568e-9);
 }
 
 // Element `index` of the van der Corput sequence in `base` (2, 3, 5, 7, 11 or 13), in [0, 1). The first base^D indices
