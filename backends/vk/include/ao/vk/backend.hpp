@@ -1,0 +1,124 @@
+// Ambient occlusion on Vulkan 1.1, as compute passes recorded into a command buffer of the host's.
+//
+//     auto backend = ao::vk::backend::create({ instance, physical_device, device, vkGetInstanceProcAddr });
+//     auto effect = ao::effect<ao::vk::backend>::create(*backend, settings, facts, camera);
+//     auto bound = effect->bind({ { depth_view, layout }, { normal_view, layout }, { visibility_view } });
+//     ...
+//     effect->set_camera(camera);              // every frame
+//     effect->record(command_buffer, *bound);
+//
+// What the pictures are: one level, one layer, one sample, of the plan's size, the view's format as listed, swizzle identity.
+//   depth       eye depth > 0 in scene units (R32_SFLOAT), or a depth buffer's values (D32_SFLOAT, X8_D24_UNORM_PACK32,
+//               D24_UNORM_S8_UINT or R32_SFLOAT; the view shows the depth aspect alone), or view-space positions
+//               (R16G16B16A16_SFLOAT, R32G32B32A32_SFLOAT). Usage SAMPLED.
+//   normal      of any length, in view space (right-handed, -Z ahead) or world space: R16G16B16A16_SFLOAT or
+//               R32G32B32A32_SFLOAT; * 0.5 + 0.5 in A2B10G10R10_UNORM_PACK32; octahedral * 0.5 + 0.5 in R16G16_UNORM.
+//               Usage SAMPLED. Not looked at (may be null) where facts::normals is from_depth.
+//   visibility  1 = open, in R32_SFLOAT or R8_UNORM. Usage STORAGE. Every pixel is written.
+//
+// What the host does around record():
+//   before  depth and normal are in the layout given to bind() (SHADER_READ_ONLY_OPTIMAL, DEPTH_STENCIL_READ_ONLY_OPTIMAL,
+//           GENERAL, …) and their contents visible to SHADER_READ in the COMPUTE_SHADER stage; visibility is in layout GENERAL
+//           and whatever used it last is ordered before SHADER_WRITE in the COMPUTE_SHADER stage (from layout UNDEFINED is fine:
+//           no content is kept).
+//   after   the visibility, still in GENERAL, is visible to SHADER_READ in COMPUTE_SHADER and FRAGMENT_SHADER and to TRANSFER_READ
+//           in TRANSFER (see context::readers). Anything else, a layout transition too, takes a barrier from COMPUTE_SHADER,
+//           SHADER_WRITE. Writing depth or normal again takes an execution dependency on COMPUTE_SHADER.
+// Outside a render pass, on a queue with compute. record() orders the program's own pictures against their use by earlier
+// frames in the same queue; frames in flight on several queues need a program each. It changes the bound compute pipeline, the
+// compute descriptor set 0 and the push constants, nothing else.
+//
+// Device features: shaderStorageImageExtendedFormats where a filter runs (RG32_SFLOAT is stored to) or the output is R8_UNORM.
+// Memory of a program, bytes per pixel: 4 unless depth is linear, and 12 with a filter; besides, 48 KiB of tables.
+#pragma once
+
+#include "ao/backend.hpp"
+
+#include <vulkan/vulkan_core.h>
+
+#include <cstdint>
+#include <memory>
+
+namespace ao::vk {
+
+// Invocations of a compute group: a matter of speed, never of the result.
+struct group_size {
+    std::uint32_t x = 8;
+    std::uint32_t y = 8;
+};
+
+// What the host owns and lends; it outlives the backend and everything made with it.
+struct context {
+    VkInstance instance = VK_NULL_HANDLE;
+    VkPhysicalDevice physical_device = VK_NULL_HANDLE;
+    VkDevice device = VK_NULL_HANDLE;
+    PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
+    VkPipelineCache pipeline_cache = VK_NULL_HANDLE; // optional; prepare() uses it
+    group_size group;
+    // Stages that the visibility is made visible to at the end: some of these three, or 0 where the host's own barrier
+    // follows. On a queue without graphics leave FRAGMENT_SHADER out.
+    VkPipelineStageFlags readers =
+        VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
+};
+
+struct image {
+    VkImageView view = VK_NULL_HANDLE;
+    VkImageLayout layout = VK_IMAGE_LAYOUT_GENERAL; // while the passes run; for the visibility it is GENERAL
+};
+
+struct device;
+struct prepared;
+struct bound;
+
+class program {
+public:
+    explicit program(std::unique_ptr<prepared> p);
+    program(program&&) noexcept;
+    program& operator=(program&&) noexcept;
+    ~program();
+
+private:
+    friend class backend;
+    std::unique_ptr<prepared> prepared_;
+};
+
+class binding {
+public:
+    explicit binding(std::unique_ptr<bound> b);
+    binding(binding&&) noexcept;
+    binding& operator=(binding&&) noexcept;
+    ~binding();
+
+private:
+    friend class backend;
+    std::unique_ptr<bound> bound_;
+};
+
+// fulfils ao::backend. One thread at a time per object; a binding is used with its own program, which outlives it.
+class backend {
+public:
+    using image = vk::image;
+    using commands = VkCommandBuffer;
+    using program = vk::program;
+    using binding = vk::binding;
+
+    static result<backend> create(const context& c);
+    backend(backend&&) noexcept;
+    backend& operator=(backend&&) noexcept;
+    ~backend();
+
+    // unsupported_format, invalid_size: the device cannot do what the plan asks for.
+    result<program> prepare(const plan& p);
+    // The views must outlive the binding's use. plan_mismatch: the program is for plans of another structure.
+    result<binding> bind(program& p, const plan& current, const host_images<image>& images);
+    // Only records: no allocation, no lock, no failure.
+    void record_pass(VkCommandBuffer commands, program& p, binding& b, const plan& current, std::size_t index);
+
+private:
+    explicit backend(std::unique_ptr<device> d);
+    std::unique_ptr<device> device_;
+};
+
+static_assert(ao::backend<backend>);
+
+} // namespace ao::vk

@@ -1,0 +1,18 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#define AO_TARGET AO_OUTPUT
+#include "ao/shared/prelude.glsl"
+#include "ao/shared/functions.h"
+#include "resources.glsl"
+#include "ao/shared/normal_pass.h"
+#include "ao/shared/occlusion_pass.h"
+
+layout(push_constant) uniform pass_constants { ao_occlusion_constants constants; };
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (in_picture(pixel)) {
+        imageStore(target, pixel, vec4(ao_occlusion_pass(constants, pixel)));
+    }
+}

@@ -1,0 +1,35 @@
+// What the pass bodies ask for, answered from Vulkan's resources. All passes share one descriptor set layout and one set of
+// options; a pass uses its part of both. AO_TARGET: format of the picture that the pass writes.
+#extension GL_EXT_samplerless_texture_functions : require
+
+layout(local_size_x_id = 10, local_size_y_id = 11) in;
+
+layout(constant_id = 0) const bool ao_affine = false;
+layout(constant_id = 1) const int ao_tap_count = 1;
+layout(constant_id = 2) const int ao_normal_source = 0;
+layout(constant_id = 3) const bool ao_rotate_normals = false;
+layout(constant_id = 4) const bool ao_parallel = false;
+layout(constant_id = 5) const bool ao_limit_thickness = false;
+layout(constant_id = 6) const bool ao_mark_background = false;
+layout(constant_id = 7) const int ao_filter_radius = 0;
+layout(constant_id = 8) const bool depth_in_z = false; // positions
+
+layout(binding = 0) uniform texture2D source; // the first of ao::pass::inputs
+layout(binding = 1) uniform texture2D normals;
+layout(binding = 2, std140) uniform kernel_table { vec4 offsets[1024]; };
+layout(binding = 3) uniform textureBuffer rotations;
+layout(binding = 4, AO_TARGET) uniform writeonly image2D target;
+
+real ao_load_stored_depth(ivec2 pixel)
+{
+    vec4 texel = texelFetch(source, pixel, 0);
+    return depth_in_z ? texel.z : texel.x;
+}
+real ao_load_depth(ivec2 pixel) { return texelFetch(source, pixel, 0).x; }
+vec4 ao_load_normal(ivec2 pixel) { return texelFetch(normals, pixel, 0); }
+vec2 ao_load_rotation(ivec2 texel) { return texelFetch(rotations, texel.y * ao_tile_size + texel.x).xy; }
+vec4 ao_tap(int i) { return offsets[i]; }
+real ao_load_visibility(ivec2 pixel) { return texelFetch(source, pixel, 0).x; }
+vec2 ao_load_row_sum(ivec2 pixel) { return texelFetch(source, pixel, 0).xy; }
+
+bool in_picture(ivec2 pixel) { return all(lessThan(pixel, imageSize(target))); }

@@ -1,0 +1,74 @@
+#include "program.hpp"
+
+#include <cassert>
+
+namespace ao::vk {
+
+namespace {
+
+// The program's pictures lose their content and take the layout they keep for the frame, after the last frame is done with them.
+void discard_transients(const device& d, VkCommandBuffer commands, const prepared& program)
+{
+    const std::size_t count = program.transients.ids.size();
+    std::array<VkImageMemoryBarrier, 3> barriers{};
+    for (std::size_t i = 0; i < count; ++i) {
+        VkImageMemoryBarrier& barrier = barriers[i];
+        barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER;
+        barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
+        barrier.dstAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
+        barrier.oldLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+        barrier.newLayout = VK_IMAGE_LAYOUT_GENERAL;
+        barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+        barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+        barrier.image = program.transients.pictures[i].image.get();
+        barrier.subresourceRange = { VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1 };
+    }
+    if (count != 0) {
+        d.call.CmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, 0,
+                                  nullptr, 0, nullptr, static_cast<std::uint32_t>(count), barriers.data());
+    }
+}
+
+void show_writes(const device& d, VkCommandBuffer commands, VkPipelineStageFlags stages, VkAccessFlags access)
+{
+    VkMemoryBarrier barrier{};
+    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+    barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
+    barrier.dstAccessMask = access;
+    d.call.CmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, stages, 0, 1, &barrier, 0, nullptr, 0, nullptr);
+}
+
+} // namespace
+
+void backend::record_pass(VkCommandBuffer buffer, program& p, binding& b, const plan& current, std::size_t index)
+{
+    const device& d = *device_;
+    const prepared& ready = *p.prepared_;
+    assert(index < current.passes.size() && same_structure(ready.plan, current));
+
+    if (index == 0) {
+        discard_transients(d, buffer, ready);
+    }
+    const pass& each = current.passes[index];
+    const VkPipelineLayout layout = ready.layout.get();
+    d.call.CmdBindPipeline(buffer, VK_PIPELINE_BIND_POINT_COMPUTE, ready.pipelines[index].get());
+    d.call.CmdBindDescriptorSets(buffer, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &b.bound_->sets[index], 0, nullptr);
+    d.call.CmdPushConstants(buffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, static_cast<std::uint32_t>(each.constants_size),
+                            each.constants.data());
+    const group_size group = d.host.group;
+    const auto width = static_cast<std::uint32_t>(current.facts.width);
+    const auto height = static_cast<std::uint32_t>(current.facts.height);
+    d.call.CmdDispatch(buffer, (width + group.x - 1) / group.x, (height + group.y - 1) / group.y, 1);
+
+    if (index + 1 < current.passes.size()) {
+        show_writes(d, buffer, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
+    }
+    else if (const VkPipelineStageFlags readers = d.host.readers; readers != 0) {
+        constexpr VkPipelineStageFlags shaders = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
+        const VkAccessFlags in_shaders = (readers & shaders) != 0 ? VK_ACCESS_SHADER_READ_BIT : 0;
+        const VkAccessFlags in_copies = (readers & VK_PIPELINE_STAGE_TRANSFER_BIT) != 0 ? VK_ACCESS_TRANSFER_READ_BIT : 0;
+        show_writes(d, buffer, readers, in_shaders | in_copies);
+    }
+}
+
+} // namespace ao::vk
