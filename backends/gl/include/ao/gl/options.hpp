@@ -1,0 +1,28 @@
+#pragma once
+
+namespace ao::gl {
+
+enum class route {
+    compute,  // a dispatch per pass
+    fragment, // a full-screen triangle per pass
+};
+
+enum class shader_source {
+    automatic, // spirv where the driver offers it, else text
+    spirv,     // OpenGL 4.6 or ARB_gl_spirv
+    text,      // GLSL 4.50; for drivers whose SPIR-V is missing or broken
+};
+
+// The picture is the same in every bit for any choice here.
+struct options {
+    gl::route route = gl::route::compute;
+    gl::shader_source source = gl::shader_source::automatic;
+    // Compute only: pixels per work group, a multiple of the driver's SIMD width in x.
+    unsigned group_width = 16;
+    unsigned group_height = 8;
+    // Whether each recorded pass puts back the state it changed. Costs about fifty glGet calls a pass, which on drivers with
+    // a thread of their own wait for it; a host that resets its state anyway turns it off (list in backend.hpp).
+    bool restore_state = true;
+};
+
+} // namespace ao::gl

@@ -1,0 +1,6 @@
+#include "filter.glsl"
+
+vec4 ao_texel(ivec2 pixel)
+{
+    return vec4(ao_filter_rows_pass(ao_constants, pixel), 0.0, 0.0);
+}
