@@ -27,21 +27,30 @@ struct host_images {
 // program and binding are movable, own what they hold and free it when destroyed; the host sees to it that no command that
 // uses them is still executing then.
 template <class B>
-concept backend = requires {
+concept backend = requires
+{
     typename B::image;
     typename B::commands;
     typename B::program;
     typename B::binding;
-} && std::movable<typename B::program> && std::movable<typename B::binding> &&
-    requires(B& b, typename B::program& program, typename B::binding& binding, typename B::commands commands, const plan& p,
-             const host_images<typename B::image>& images, std::size_t index) {
-        // Compiles and allocates; slow.
-        { b.prepare(p) } -> std::same_as<result<typename B::program>>;
-        // Binds pictures of the plan's size and formats; allocates. A program may have several bindings.
-        { b.bind(program, p, images) } -> std::same_as<result<typename B::binding>>;
-        // Records pass `index` of a plan with the structure that the program was prepared for. Passes are recorded in order.
-        { b.record_pass(commands, program, binding, p, index) };
-    };
+}
+&&std::movable<typename B::program>&& std::movable<typename B::binding>&& requires(B& b, typename B::program& program,
+                                                                                   typename B::binding& binding,
+                                                                                   typename B::commands commands, const plan& p,
+                                                                                   const host_images<typename B::image>& images,
+                                                                                   std::size_t index)
+{
+    // Compiles and allocates; slow.
+    {
+        b.prepare(p)
+        } -> std::same_as<result<typename B::program>>;
+    // Binds pictures of the plan's size and formats; allocates. A program may have several bindings.
+    {
+        b.bind(program, p, images)
+        } -> std::same_as<result<typename B::binding>>;
+    // Records pass `index` of a plan with the structure that the program was prepared for. Passes are recorded in order.
+    { b.record_pass(commands, program, binding, p, index) };
+};
 
 // Ambient occlusion for an engine: a plan and the program that runs it.
 template <backend B>

@@ -11,8 +11,8 @@ enum class pixel_format {
     rgb10a2, // unsigned normalised
     rg16,    // unsigned normalised
     d32f,
-    d24,     // unsigned normalised, in the low 24 bits of 32
-    r8,      // unsigned normalised
+    d24, // unsigned normalised, in the low 24 bits of 32
+    r8,  // unsigned normalised
 };
 
 // Bytes per pixel in memory, rows tightly packed.

@@ -29,23 +29,20 @@ private:
     std::uint32_t state_;
 };
 
-// Uniform in the half box |x|, |y| <= 1, 0 <= z < 1 (paper 1: S = (2f - 1, 2f - 1, f)).
-constexpr glm::vec3 box_offset(random_stream& random)
+// Uniform in the half box |x|, |y| <= 1, 0 <= z < 1 (paper 1: S = (2f - 1, 2f - 1, f)), from three numbers in [0, 1).
+constexpr glm::vec3 box_offset(float u, float v, float w)
 {
-    const float x = 2.0F * random.uniform() - 1.0F;
-    const float y = 2.0F * random.uniform() - 1.0F;
-    return { x, y, random.uniform() };
+    return { 2.0F * u - 1.0F, 2.0F * v - 1.0F, w };
 }
 
-// Uniform in the half ball, by rejection from the half box (accepted with probability pi / 6).
-constexpr glm::vec3 half_ball_offset(random_stream& random)
+// Uniform in the half ball, from three numbers in [0, 1): height uniform on the half sphere, distance the cube root.
+constexpr glm::vec3 half_ball_offset(double u, double v, double w)
 {
-    for (;;) {
-        const glm::vec3 offset = box_offset(random);
-        if (math<float>::ao_dot(offset, offset) <= 1.0F) {
-            return offset;
-        }
-    }
+    const double angle = 2 * detail::pi * u;
+    const double distance = detail::cube_root(v);
+    const double across = distance * detail::sqrt(1 - w * w);
+    return { static_cast<float>(across * detail::cosine(angle)), static_cast<float>(across * detail::sine(angle)),
+             static_cast<float>(distance * w) };
 }
 
 // Cosine-weighted direction, uniform in distance, from three numbers in [0, 1) (paper 2, eq. 14 with its radicand corrected):
@@ -58,18 +55,41 @@ constexpr glm::vec3 cosine_linear_offset(double u, double v, double w)
              static_cast<float>(v * detail::sqrt(w)) };
 }
 
+// `count` random numbers in [0, 1), one in each of `count` equal strata, in random order. Each is uniform by itself; together
+// they leave out the chance that a small kernel has most of its offsets high or to one side.
+constexpr std::array<float, max_taps> stratified(random_stream& random, int count)
+{
+    std::array<float, max_taps> numbers{};
+    for (int i = 0; i < count; ++i) {
+        numbers[static_cast<std::size_t>(i)] = (static_cast<float>(i) + random.uniform()) / static_cast<float>(count);
+    }
+    for (int i = count - 1; i > 0; --i) {
+        const std::uint32_t j = random.next() % static_cast<std::uint32_t>(i + 1);
+        const float number = numbers[static_cast<std::size_t>(i)];
+        numbers[static_cast<std::size_t>(i)] = numbers[j];
+        numbers[j] = number;
+    }
+    for (float& number : numbers) {
+        number = number < 1.0F ? number : 0.99999994F;
+    }
+    return numbers;
+}
+
 // The `taps` offsets of a kernel, w = 0. Unused entries are zero.
 constexpr std::array<glm::vec4, max_taps> make_kernel(kernel_type kernel, int taps, std::uint32_t seed)
 {
     std::array<glm::vec4, max_taps> offsets{};
     random_stream random(seed);
-    for (int i = 0; i < taps; ++i) {
+    const std::array<float, max_taps> u = stratified(random, taps);
+    const std::array<float, max_taps> v = stratified(random, taps);
+    const std::array<float, max_taps> w = stratified(random, taps);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(taps); ++i) {
         glm::vec3 offset(0.0F);
         if (kernel == kernel_type::box) {
-            offset = box_offset(random);
+            offset = box_offset(u[i], v[i], w[i]);
         }
         else if (kernel == kernel_type::hemisphere) {
-            offset = half_ball_offset(random);
+            offset = half_ball_offset(static_cast<double>(u[i]), static_cast<double>(v[i]), static_cast<double>(w[i]));
         }
         else {
             using reals = math<double>;
@@ -77,7 +97,7 @@ constexpr std::array<glm::vec4, max_taps> make_kernel(kernel_type kernel, int ta
             offset = cosine_linear_offset(reals::ao_radical_inverse(2, index), reals::ao_radical_inverse(3, index),
                                           reals::ao_radical_inverse(5, index));
         }
-        offsets[static_cast<std::size_t>(i)] = glm::vec4(offset, 0.0F);
+        offsets[i] = glm::vec4(offset, 0.0F);
     }
     return offsets;
 }

@@ -28,7 +28,9 @@ struct picture {
 
     picture() = default;
     picture(pixel_format f, int w, int h)
-        : format(f), width(w), height(h),
+        : format(f),
+          width(w),
+          height(h),
           bytes(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * static_cast<std::size_t>(bytes_per_pixel(f)))
     {
     }
@@ -75,8 +77,10 @@ inline picture pack_depth(std::span<const float> eye_depth, int width, int heigh
         const auto column = static_cast<double>(i % static_cast<std::size_t>(width)) + 0.5;
         const auto row = static_cast<double>(i / static_cast<std::size_t>(width)) + 0.5;
         const double reach = folded->parallel ? 1.0 : d;
-        const double x = (column * static_cast<double>(folded->projection.slope_x) + static_cast<double>(folded->projection.offset_x)) * reach;
-        const double y = (row * static_cast<double>(folded->projection.slope_y) + static_cast<double>(folded->projection.offset_y)) * reach;
+        const double x =
+            (column * static_cast<double>(folded->projection.slope_x) + static_cast<double>(folded->projection.offset_x)) * reach;
+        const double y =
+            (row * static_cast<double>(folded->projection.slope_y) + static_cast<double>(folded->projection.offset_y)) * reach;
         if (source == depth_source::linear) {
             packed.set_texel(i, seen ? eye_depth[i] : 0.0F);
             continue;

@@ -25,10 +25,10 @@ enum class depth_source {
 };
 
 enum class normal_source {
-    vector = occlusion_pass<float, no_resources>::ao_normal_vector,           // xyz, in rgba16f or rgba32f
-    unorm10 = occlusion_pass<float, no_resources>::ao_normal_unorm10,         // xyz * 0.5 + 0.5, in rgb10a2
-    octahedral = occlusion_pass<float, no_resources>::ao_normal_octahedral,   // octahedral * 0.5 + 0.5, in rg16
-    from_depth = occlusion_pass<float, no_resources>::ao_normal_from_depth,   // none stored: rebuilt from depth
+    vector = occlusion_pass<float, no_resources>::ao_normal_vector,         // xyz, in rgba16f or rgba32f
+    unorm10 = occlusion_pass<float, no_resources>::ao_normal_unorm10,       // xyz * 0.5 + 0.5, in rgb10a2
+    octahedral = occlusion_pass<float, no_resources>::ao_normal_octahedral, // octahedral * 0.5 + 0.5, in rg16
+    from_depth = occlusion_pass<float, no_resources>::ao_normal_from_depth, // none stored: rebuilt from depth
 };
 
 // What stays the same from frame to frame; another set of facts is another plan.
@@ -39,16 +39,19 @@ struct facts {
     pixel_format depth_format = pixel_format::r32f;
     normal_source normals = normal_source::vector;
     pixel_format normal_format = pixel_format::rgba16f;
-    bool world_normals = false; // stored in world space: camera::normal_to_view turns them
-    bool parallel = false;      // parallel projection
+    bool world_normals = false;                      // stored in world space: camera::normal_to_view turns them
+    bool parallel = false;                           // parallel projection
     pixel_format output_format = pixel_format::r32f; // or r8
 };
+
+// Eye depths beyond are background: products with them would leave the range of floats.
+inline constexpr float max_eye_depth = 1e30F;
 
 // What may change every frame.
 struct camera {
     camera_projection projection;
-    matrix3 normal_to_view; // a rotation, used where facts::world_normals
-    float background = std::numeric_limits<float>::max(); // eye depths from here on are background
+    matrix3 normal_to_view;           // a rotation, used where facts::world_normals
+    float background = max_eye_depth; // eye depths from here on are background
 };
 
 enum class pass_type { linearize, occlusion, filter_rows, filter_columns };
@@ -207,16 +210,17 @@ constexpr depth_error storage_error(const facts& f, const projection_constants& 
 constexpr std::optional<error> update(plan& p, const camera& view)
 {
     const facts& f = p.facts;
-    const result<projection_constants> folded = fold_projection(view.projection, f.width, f.height, view.background);
+    if (!(view.background > 0)) {
+        return error(errc::invalid_projection, "background must be greater than 0");
+    }
+    const float background = view.background < max_eye_depth ? view.background : max_eye_depth;
+    const result<projection_constants> folded = fold_projection(view.projection, f.width, f.height, background);
     if (!folded) {
         return folded.error();
     }
     if (folded->parallel != f.parallel) {
         return error(errc::invalid_projection, f.parallel ? "the plan is for a parallel projection, the camera has perspective"
                                                           : "the plan is for perspective, the camera has a parallel projection");
-    }
-    if (!(view.background > 0)) {
-        return error(errc::invalid_projection, "background must be greater than 0");
     }
     for (pass& each : p.passes) {
         switch (each.type) {
@@ -225,7 +229,7 @@ constexpr std::optional<error> update(plan& p, const camera& view)
             if (f.depth != depth_source::hardware) {
                 c = {};
                 c.scale = f.depth == depth_source::position ? -1.0F : 1.0F;
-                c.background = view.background;
+                c.background = background;
             }
             detail::set_constants(each, c);
             break;
@@ -234,15 +238,15 @@ constexpr std::optional<error> update(plan& p, const camera& view)
             occlusion_constants c{};
             c.projection = std::bit_cast<decltype(c.projection)>(folded->projection);
             const matrix3& turn = view.normal_to_view;
-            c.normal_to_view = { turn[0][0], turn[1][0], turn[2][0], 0, turn[0][1], turn[1][1],
+            c.normal_to_view = { turn[0][0], turn[1][0], turn[2][0], 0,          turn[0][1], turn[1][1],
                                  turn[2][1], 0,          turn[0][2], turn[1][2], turn[2][2], 0 };
             const detail::depth_error e = detail::storage_error(f, *folded);
             c.radius = p.settings.radius;
             c.bias = p.settings.bias;
             c.bias_linear = e.linear;
             c.bias_quadratic = e.quadratic;
-            c.thickness = p.settings.thickness;
-            c.background = view.background;
+            c.thickness = p.settings.thickness * p.settings.radius;
+            c.background = background;
             c.width = static_cast<float>(f.width);
             c.height = static_cast<float>(f.height);
             detail::set_constants(each, c);

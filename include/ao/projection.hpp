@@ -37,16 +37,18 @@ struct frustum {
 struct projection_options {
     depth_range range = depth_range::zero_to_one;
     first_row rows = first_row::at_ndc_minus_one;
-    bool reversed = false;    // near at depth 1, far at depth 0
-    bool y_down = false;      // NDC y grows downwards, as in Vulkan
+    bool reversed = false; // near at depth 1, far at depth 0
+    bool y_down = false;   // NDC y grows downwards, as in Vulkan
     bool parallel = false;
 };
 
 constexpr camera_projection make_projection(const frustum& f, const projection_options& options = {})
 {
     const bool infinite = f.far > std::numeric_limits<double>::max();
-    const double near_z = options.range == depth_range::zero_to_one ? (options.reversed ? 1.0 : 0.0) : (options.reversed ? 1.0 : -1.0);
-    const double far_z = options.range == depth_range::zero_to_one ? (options.reversed ? 0.0 : 1.0) : (options.reversed ? -1.0 : 1.0);
+    const double near_z =
+        options.range == depth_range::zero_to_one ? (options.reversed ? 1.0 : 0.0) : (options.reversed ? 1.0 : -1.0);
+    const double far_z =
+        options.range == depth_range::zero_to_one ? (options.reversed ? 0.0 : 1.0) : (options.reversed ? -1.0 : 1.0);
     const double width = f.right - f.left;
     const double height = f.top - f.bottom;
     const double flip = options.y_down ? -1.0 : 1.0;

@@ -28,9 +28,11 @@ struct scalar_traits {
 };
 
 template <>
-struct real_traits<float> : scalar_traits<float> {};
+struct real_traits<float> : scalar_traits<float> {
+};
 
 template <>
-struct real_traits<double> : scalar_traits<double> {};
+struct real_traits<double> : scalar_traits<double> {
+};
 
 } // namespace ao

@@ -4,7 +4,6 @@
 #include "ao/result.hpp"
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 
 namespace ao {
@@ -23,9 +22,9 @@ struct settings {
     int taps = 32;       // 1 ... max_taps; cost is linear in it
     float radius = 1.0F; // scene units, (0, 1e15]
     float bias = 0.02F;  // least depth difference that occludes, scene units, [0, 1e15]; raise it against acne
-    // How far behind a surface an offset still counts as occluded, scene units, > 0. Infinite as printed in paper 1;
-    // about one radius removes halos around foreground objects.
-    float thickness = std::numeric_limits<float>::infinity();
+    // How far behind a surface an offset still counts as occluded, in radii, > 0. Infinite as printed in paper 1; the finite
+    // default keeps a foreground object from darkening what lies far behind it.
+    float thickness = 2.0F;
     int filter = 5;         // pixels a side, odd, 1 (no filter) ... max_filter
     std::uint32_t seed = 1; // of the random kernels and the rotations
 };

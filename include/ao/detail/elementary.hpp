@@ -107,4 +107,21 @@ constexpr double cosine(double angle)
     return sine(angle + pi / 2);
 }
 
+// Of x in [0, 1], for tables; error below 1e-15.
+constexpr double cube_root(double x)
+{
+    if (!(x > 0)) {
+        return 0;
+    }
+    double root = 1;
+    for (int i = 0; i < 200; ++i) {
+        const double next = (2 * root + x / (root * root)) / 3;
+        if (!(next < root)) {
+            break;
+        }
+        root = next;
+    }
+    return root;
+}
+
 } // namespace ao::detail

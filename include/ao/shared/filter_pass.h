@@ -4,8 +4,7 @@
 //            vec2 ao_load_row_sum(ivec2): what the first pass returned.
 // Options:   int ao_filter_radius.
 
-struct ao_filter_constants
-{
+struct ao_filter_constants {
     real width; // pixels
     real height;
     real reserved_x;

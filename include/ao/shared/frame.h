@@ -1,7 +1,6 @@
 // Tangent frames. A frame is orthonormal and right-handed: tangent x bitangent = normal.
 
-struct ao_frame
-{
+struct ao_frame {
     vec3 tangent;
     vec3 bitangent;
     vec3 normal;

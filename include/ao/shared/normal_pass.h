@@ -25,14 +25,14 @@ AO_PASS vec3 ao_surface_step(ao_projection p, vec2 size, ivec2 pixel, vec3 posit
     mask take_ahead = usable_ahead && (!usable_behind || gap_ahead <= gap_behind);
     mask take_any = usable_ahead || usable_behind;
 
-    real depth = mix(depth_behind, depth_ahead, take_ahead);
-    ivec2 texel = ivec2(mix(behind.x, ahead.x, take_ahead), mix(behind.y, ahead.y, take_ahead));
-    AO_PRECISE vec2 centre = vec2(real(texel.x) + real(0.5), real(texel.y) + real(0.5));
-    vec3 neighbour = ao_view_point(p, centre, mix(real(1), depth, take_any), parallel);
-    real side = mix(real(-1), real(1), take_ahead);
-    AO_PRECISE vec3 difference = vec3((neighbour.x - position.x) * side, (neighbour.y - position.y) * side,
-                                      (neighbour.z - position.z) * side);
-    return ao_select(vec3(real(0), real(0), real(0)), difference, take_any);
+    // Both differences, then the choice: where math<interval> leaves it open, either is bounded by itself.
+    AO_PRECISE vec2 centre_ahead = vec2(real(ahead.x) + real(0.5), real(ahead.y) + real(0.5));
+    AO_PRECISE vec2 centre_behind = vec2(real(behind.x) + real(0.5), real(behind.y) + real(0.5));
+    vec3 next = ao_view_point(p, centre_ahead, mix(real(1), depth_ahead, usable_ahead), parallel);
+    vec3 previous = ao_view_point(p, centre_behind, mix(real(1), depth_behind, usable_behind), parallel);
+    AO_PRECISE vec3 forward = vec3(next.x - position.x, next.y - position.y, next.z - position.z);
+    AO_PRECISE vec3 backward = vec3(position.x - previous.x, position.y - previous.y, position.z - previous.z);
+    return ao_select(vec3(real(0), real(0), real(0)), ao_select(backward, forward, take_ahead), take_any);
 }
 
 // Normal of the surface through the pixel and its neighbours, towards the eye; +Z where there is none.

@@ -4,8 +4,7 @@
 //   pixel.x = scale_x * x / d + centre_x   in perspective,   scale_x * x + centre_x   in parallel projection, and so for y.
 // Structs of constants hold reals only, a multiple of four of them: they lie alike in C++, std140 and std430.
 
-struct ao_projection
-{
+struct ao_projection {
     real scale_x; // pixels
     real scale_y;
     real centre_x;
@@ -40,8 +39,7 @@ AO_FN vec2 ao_to_pixel(ao_projection p, vec3 point, bool parallel)
 //   denominator = stored * scale + offset + pixel.x * slope_x + pixel.y * slope_y
 //   d = numerator / denominator, or the denominator itself where `affine` (parallel projections, linear input).
 // The slopes are not 0 for oblique near planes only.
-struct ao_depth_decode
-{
+struct ao_depth_decode {
     real numerator;
     real scale;
     real offset;

@@ -34,8 +34,7 @@ AO_FN vec3 ao_normalize_or(vec3 v, vec3 fallback)
 }
 
 // A rotation by its rows; the fourth real of each is padding.
-struct ao_rotation
-{
+struct ao_rotation {
     real xx;
     real xy;
     real xz;
