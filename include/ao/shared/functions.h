@@ -1,7 +1,9 @@
-// Every shared function, in an order in which each is defined before its first use.
-#include "ao/shared/encoding.h"
+// Every shared function, each defined before its first use, which GLSL demands.
+// clang-format off
+#include "ao/shared/vector.h"
 #include "ao/shared/frame.h"
 #include "ao/shared/halton.h"
+#include "ao/shared/encoding.h"
 #include "ao/shared/projection.h"
 #include "ao/shared/tile.h"
-#include "ao/shared/vector.h"
+// clang-format on
