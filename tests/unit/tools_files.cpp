@@ -16,20 +16,16 @@
 #include <memory>
 #include <sys/resource.h>
 
-namespace
-{
+namespace {
 
 using namespace ao::tools;
 namespace fs = std::filesystem;
 
 std::string message_of(const fs::path& path, std::string_view bytes)
 {
-    try
-    {
+    try {
         write_file(path, bytes);
-    }
-    catch (const error& e)
-    {
+    } catch (const error& e) {
         return e.what();
     }
     return {};
@@ -52,8 +48,7 @@ std::vector<float> read_channel(const std::string& bytes, const std::string& nam
     CHECK(image.height == size.height);
     std::vector<float> values;
     for (int c = 0; c < header.num_channels; ++c)
-        if (name == header.channels[c].name)
-        {
+        if (name == header.channels[c].name) {
             const auto* from = reinterpret_cast<const float*>(image.images[c]);
             values.assign(from, from + size.pixels());
         }
@@ -71,27 +66,24 @@ bool same_bits(const std::vector<float>& a, const std::vector<float>& b)
 
 TEST_CASE("a float picture comes back with the same bits", "[tools][files]")
 {
-    const extent size = GENERATE(extent{1, 1}, extent{3, 2}, extent{1, 37}, extent{131, 47});
+    const extent size = GENERATE(extent{ 1, 1 }, extent{ 3, 2 }, extent{ 1, 37 }, extent{ 131, 47 });
     std::vector<float> gray;
     std::vector<glm::vec3> colour;
-    for (std::size_t i = 0; i < size.pixels(); ++i)
-    {
+    for (std::size_t i = 0; i < size.pixels(); ++i) {
         const float v = std::sin(static_cast<float>(i)) * 1.0e3f;
         gray.push_back(i % 11 == 5 ? std::numeric_limits<float>::infinity() : v);
         colour.emplace_back(v, v + 1.0f, -v);
     }
     CHECK(same_bits(read_channel(encode_exr(size, gray), "Y", size), gray));
 
-    const auto one = [&](int c)
-    {
+    const auto one = [&](int c) {
         std::vector<float> values;
         for (const glm::vec3& v : colour)
             values.push_back(v[c]);
         return values;
     };
     const std::string rgb = encode_exr(size, colour, "RGB"), xyz = encode_exr(size, colour, "XYZ");
-    for (int c = 0; c < 3; ++c)
-    {
+    for (int c = 0; c < 3; ++c) {
         CHECK(same_bits(read_channel(rgb, std::string(1, "RGB"[c]), size), one(c)));
         CHECK(same_bits(read_channel(xyz, std::string(1, "XYZ"[c]), size), one(c)));
     }
@@ -99,17 +91,17 @@ TEST_CASE("a float picture comes back with the same bits", "[tools][files]")
 
 TEST_CASE("a PNG comes back with the same bytes, row 0 on top", "[tools][files]")
 {
-    const extent size{7, 5};
+    const extent size{ 7, 5 };
     const int channels = GENERATE(1, 3);
     std::vector<std::uint8_t> pixels;
     for (std::size_t i = 0; i < size.pixels() * static_cast<std::size_t>(channels); ++i)
         pixels.push_back(static_cast<std::uint8_t>(i * 7));
     const std::string png = encode_png(size, channels, pixels);
     int width = 0, height = 0, found = 0;
-    const std::unique_ptr<stbi_uc, decltype(&std::free)> read(
-        stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(png.data()), static_cast<int>(png.size()), &width,
-                              &height, &found, 0),
-        &std::free);
+    const std::unique_ptr<stbi_uc, decltype(&std::free)> read(stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(png.data()),
+                                                                                    static_cast<int>(png.size()), &width, &height,
+                                                                                    &found, 0),
+                                                              &std::free);
     REQUIRE(read);
     CHECK(width == size.width);
     CHECK(height == size.height);
@@ -119,8 +111,8 @@ TEST_CASE("a PNG comes back with the same bytes, row 0 on top", "[tools][files]"
 
 TEST_CASE("values outside 0..1 are clamped on the way to bytes", "[tools][files]")
 {
-    const std::vector<float> values{-1.0f, 0.0f, 0.5f, 1.0f, 7.0f, std::numeric_limits<float>::quiet_NaN()};
-    CHECK(to_bytes(values) == std::vector<std::uint8_t>{0, 0, 128, 255, 255, 0});
+    const std::vector<float> values{ -1.0f, 0.0f, 0.5f, 1.0f, 7.0f, std::numeric_limits<float>::quiet_NaN() };
+    CHECK(to_bytes(values) == std::vector<std::uint8_t>{ 0, 0, 128, 255, 255, 0 });
 }
 
 TEST_CASE("writing replaces the whole file or nothing", "[tools][files]")
@@ -167,8 +159,7 @@ TEST_CASE("an unwritable path is one line with path and reason", "[tools][files]
 {
     const scratch_directory dir;
     dir.file("plain", "text");
-    for (const char* name : {"missing/a.png", "plain/a.png"})
-    {
+    for (const char* name : { "missing/a.png", "plain/a.png" }) {
         const std::string message = message_of(dir.path / name, "x");
         CHECK(message.find((dir.path / name).string()) == 0);
         CHECK(message.find('\n') == std::string::npos);
@@ -182,8 +173,7 @@ TEST_CASE("an unwritable path is one line with path and reason", "[tools][files]
 
 TEST_CASE("a device is written to, not replaced", "[tools][files]")
 {
-    if (!fs::is_character_file("/dev/full"))
-    {
+    if (!fs::is_character_file("/dev/full")) {
         WARN("skipped: no /dev/full here");
         return;
     }

@@ -1,24 +1,27 @@
 #include "tools_support.hpp"
 
+#include "scene/apart.hpp"
+#include "scene/courtyard.hpp"
 #include "scene/error.hpp"
 #include "scene/load.hpp"
+#include "scene/scene_bytes.hpp"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 
-namespace
-{
+#include <atomic>
+#include <csignal>
+#include <functional>
+
+namespace {
 
 using namespace ao::tools;
 
 std::string message_of(const std::string& path)
 {
-    try
-    {
+    try {
         (void)load_model(path);
-    }
-    catch (const error& e)
-    {
+    } catch (const error& e) {
         return e.what();
     }
     return {};
@@ -45,8 +48,7 @@ TEST_CASE("what cannot be loaded is one line that says why", "[tools][load]")
     says(message_of(missing), missing, "no such file");
     says(message_of(dir.path.string()), dir.path.string(), "not a regular file");
 
-    const auto bad = [&](const std::string& name, std::string_view text, const std::string& reason)
-    {
+    const auto bad = [&](const std::string& name, std::string_view text, const std::string& reason) {
         const std::string path = dir.file(name, text);
         INFO(name);
         says(message_of(path), path, reason);
@@ -54,7 +56,7 @@ TEST_CASE("what cannot be loaded is one line that says why", "[tools][load]")
     bad("empty.obj", "", "empty");
     bad("unknown.xyzzy", "nothing of this world", ": ");
     bad("points.obj", "v 0 0 0\nv 1 0 0\n", ": ");
-    bad("lines.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n", "no triangles");
+    bad("lines.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n", "No meshes remaining");
     bad("nan.obj", "v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n", "vertex 2 of mesh 0");
     bad("inf.obj", "v 0 0 0\nv inf 0 0\nv 0 1 0\nf 1 2 3\n", "vertex 1 of mesh 0");
     bad("huge.obj", "v 0 0 0\nv 1e30 0 0\nv 0 1 0\nf 1 2 3\n", "beyond 1e18");
@@ -62,8 +64,44 @@ TEST_CASE("what cannot be loaded is one line that says why", "[tools][load]")
     bad("range.ply", ply_header + std::string("0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n"), ": ");
     bad("normal.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn nan 0 0\nf 1//1 2//1 3//1\n", "normal is not finite");
     bad("half.glb", std::string_view("glTF\x02\0\0\0\xff\0\0\0", 12), ": ");
-    bad("half.ply", std::string_view(ply_header).substr(0, 60), ": ");
+    bad("half.ply", std::string_view(ply_header).substr(0, 60), "truncated");
     bad("half.gltf", "{\"asset\":{\"version\":\"2.0\"},\"meshes\":[{", ": ");
+}
+
+TEST_CASE("a child's crash, endless loop, error and answer reach the parent", "[tools][apart]")
+{
+    const auto message = [](const std::function<std::string()>& work) {
+        try {
+            return "answered " + run_apart("it", 1, work);
+        } catch (const error& e) {
+            return std::string(e.what());
+        }
+    };
+    const std::string large(1 << 20, 'x');
+    CHECK(message([&] { return large; }) == "answered " + large);
+    CHECK(message([]() -> std::string { throw error("own words"); }) == "own words");
+    CHECK(message([]() -> std::string {
+              std::raise(SIGSEGV);
+              return {};
+          }).find("it: the reader crashed") == 0);
+    CHECK(message([]() -> std::string {
+              for (std::atomic<unsigned> i{ 0 };;)
+                  ++i;
+          }) == "it: gave up after 1 s");
+}
+
+TEST_CASE("a scene survives the way between processes", "[tools][apart]")
+{
+    const scene s = courtyard();
+    const std::string bytes = to_bytes(s);
+    const scene again = scene_from_bytes(bytes);
+    CHECK(again.positions == s.positions);
+    CHECK(again.triangles == s.triangles);
+    CHECK(again.object == s.object);
+    CHECK(again.object_names == s.object_names);
+    CHECK(again.material_names == s.material_names);
+    CHECK_THROWS_AS(scene_from_bytes(bytes.substr(0, bytes.size() - 1)), error);
+    CHECK_THROWS_AS(scene_from_bytes(bytes.substr(0, 100)), error);
 }
 
 TEST_CASE("polygons become triangles, missing normals those of the faces", "[tools][load]")
@@ -72,11 +110,10 @@ TEST_CASE("polygons become triangles, missing normals those of the faces", "[too
     const scene s = load_model(dir.file("roof.obj", "o left\nv 0 0 0\nv 0 0 1\nv -1 -1 1\nv -1 -1 0\nf 1 4 3 2\n"
                                                     "o right\nv 1 -1 0\nv 1 -1 1\nf 1 2 6 5\n"));
     CHECK(s.triangles.size() == 4);
-    CHECK(s.object_names == std::vector<std::string>{"left", "right"});
+    CHECK(s.object_names == std::vector<std::string>{ "left", "right" });
     CHECK_NOTHROW(check(s));
     for (std::size_t t = 0; t < s.triangles.size(); ++t)
-        for (int corner = 0; corner < 3; ++corner)
-        {
+        for (int corner = 0; corner < 3; ++corner) {
             const glm::vec3 n = s.normals[s.triangles[t][corner]];
             const float side = s.object[t] == 0 ? -1.0f : 1.0f;
             CHECK(std::abs(glm::dot(n, glm::normalize(glm::vec3(side, 1.0f, 0.0f)))) == Approx(1.0f));
@@ -106,7 +143,7 @@ TEST_CASE("node transforms reach positions and normals", "[tools][load]")
     const bounds b = bounds_of(s);
     CHECK(b.low == glm::vec3(5.0f, 0.0f, 0.0f));
     CHECK(b.high == glm::vec3(7.0f, 1.0f, 0.0f));
-    CHECK(s.object_names == std::vector<std::string>{"moved"});
+    CHECK(s.object_names == std::vector<std::string>{ "moved" });
     CHECK(glm::length(s.normals[0] - glm::vec3(0.0f, 0.0f, 1.0f)) < 1e-6f);
 }
 

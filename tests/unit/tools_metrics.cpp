@@ -8,13 +8,11 @@
 #include <random>
 #include <vector>
 
-namespace
-{
+namespace {
 
 using namespace ao::tools;
 
-struct pictures
-{
+struct pictures {
     std::vector<float> x, truth, a, b;
     std::vector<std::uint8_t> mask;
 };
@@ -25,8 +23,7 @@ pictures make(std::size_t n, double picture_sd, double offset, double noise_sd, 
     std::mt19937 bits(seed);
     std::normal_distribution<double> normal;
     pictures p;
-    for (std::size_t i = 0; i < n; ++i)
-    {
+    for (std::size_t i = 0; i < n; ++i) {
         const double t = 0.3 + 0.4 * static_cast<double>(i % 97) / 97.0;
         p.truth.push_back(static_cast<float>(t));
         p.x.push_back(static_cast<float>(t + offset + picture_sd * normal(bits)));
@@ -47,9 +44,8 @@ TEST_CASE("error without reference noise is the plain error", "[tools][metrics]"
     double square = 0.0, sum = 0.0;
     std::vector<double> sizes;
     for (std::size_t i = 0; i < p.x.size(); ++i)
-        if (p.mask[i] != 0)
-        {
-            const double d = double{p.x[i]} - double{p.truth[i]};
+        if (p.mask[i] != 0) {
+            const double d = double{ p.x[i] } - double{ p.truth[i] };
             square += d * d;
             sum += d;
             sizes.push_back(std::abs(d));
@@ -67,13 +63,11 @@ TEST_CASE("noise of the references stays out of the error", "[tools][metrics]")
     constexpr double sd = 0.02, noise = 0.08;
     constexpr std::size_t n = 50000;
     const double pixels = n * 0.8;
-    for (unsigned seed = 1; seed <= 10; ++seed)
-    {
+    for (unsigned seed = 1; seed <= 10; ++seed) {
         const pictures p = make(n, sd, 0.0, noise, seed);
         const picture_error e = error_against(p.x, p.a, p.b, p.mask);
         // (d - m)(d - k) with independent d, m, k: variance 2 sd^4 + 2 sd^2 noise^2 + noise^4.
-        const double spread =
-            std::sqrt((2.0 * std::pow(sd, 4) + 2.0 * sd * sd * noise * noise + std::pow(noise, 4)) / pixels);
+        const double spread = std::sqrt((2.0 * std::pow(sd, 4) + 2.0 * sd * sd * noise * noise + std::pow(noise, 4)) / pixels);
         CHECK(std::abs(e.rmse * e.rmse - sd * sd) < 4.5 * spread);
         // The control: one reference used twice takes its noise for the picture's error.
         const picture_error naive = error_against(p.x, p.a, p.a, p.mask);
@@ -96,8 +90,7 @@ TEST_CASE("no constant beats the best constant", "[tools][metrics]")
     const pictures p = make(5000, 0.0, 0.0, 0.03, 4);
     const picture_error best = error_of_best_constant(p.a, p.b, p.mask);
     CHECK(std::abs(best.bias) < 1e-12);
-    for (float c = 0.0f; c <= 1.0f; c += 0.01f)
-    {
+    for (float c = 0.0f; c <= 1.0f; c += 0.01f) {
         const std::vector<float> constant(p.x.size(), c);
         CHECK(error_against(constant, p.a, p.b, p.mask).rmse >= best.rmse - 1e-9);
     }
@@ -106,7 +99,7 @@ TEST_CASE("no constant beats the best constant", "[tools][metrics]")
 TEST_CASE("agreement counts pixels whose bits differ", "[tools][metrics]")
 {
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    const std::vector<float> x{0.0f, 0.5f, 1.0f, nan, 0.25f};
+    const std::vector<float> x{ 0.0f, 0.5f, 1.0f, nan, 0.25f };
     CHECK(agreement_of(x, x).differing == 0);
     CHECK(agreement_of(x, x).pixels == 5);
 

@@ -24,8 +24,8 @@ TEST_CASE("the courtyard is sound and all there", "[tools][scene]")
     CHECK(s.triangles.size() <= 60000);
     const std::set<std::string> names(s.object_names.begin(), s.object_names.end());
     CHECK(names.size() == s.object_names.size());
-    for (const char* name : {"paving", "arcade column 0", "arches", "vault", "steps", "railing left", "wall ivy",
-                             "shrub 0", "crate 0", "fountain", "distant wall"})
+    for (const char* name : { "paving", "arcade column 0", "arches", "vault", "steps", "railing left", "wall ivy", "shrub 0",
+                              "crate 0", "fountain", "distant wall" })
         CHECK(names.count(name) == 1);
     std::vector<std::size_t> triangles(s.object_names.size());
     for (const std::uint32_t o : s.object)
@@ -42,14 +42,13 @@ TEST_CASE("every solid shape's normals point the way its triangles face", "[tool
     scene s;
     mesh_builder m(s);
     m.begin("shapes", "any");
-    m.turned_box({1.0f, 2.0f, 3.0f}, {0.5f, 1.0f, 2.0f}, 30.0f);
-    m.slab({-1.0f, 0.0f, -1.0f}, {1.0f, 0.5f, 1.0f}, 0.1f);
-    m.bar({0.0f, 0.0f, 0.0f}, {1.0f, 2.0f, 0.5f}, 0.1f, 8);
-    const outline_point outline[] = {{1.0f, 0.0f}, {1.2f, 0.5f}, {0.5f, 1.0f}, {0.0f, 1.2f}};
-    m.lathe({0.0f, 0.0f, 0.0f}, outline, 12);
+    m.turned_box({ 1.0f, 2.0f, 3.0f }, { 0.5f, 1.0f, 2.0f }, 30.0f);
+    m.slab({ -1.0f, 0.0f, -1.0f }, { 1.0f, 0.5f, 1.0f }, 0.1f);
+    m.bar({ 0.0f, 0.0f, 0.0f }, { 1.0f, 2.0f, 0.5f }, 0.1f, 8);
+    const outline_point outline[] = { { 1.0f, 0.0f }, { 1.2f, 0.5f }, { 0.5f, 1.0f }, { 0.0f, 1.2f } };
+    m.lathe({ 0.0f, 0.0f, 0.0f }, outline, 12);
     check(s);
-    for (const glm::uvec3& t : s.triangles)
-    {
+    for (const glm::uvec3& t : s.triangles) {
         const glm::vec3 a = s.positions[t.x];
         const glm::vec3 face = glm::normalize(glm::cross(s.positions[t.y] - a, s.positions[t.z] - a));
         for (int corner = 0; corner < 3; ++corner)
@@ -63,10 +62,22 @@ TEST_CASE("a damaged scene is refused", "[tools][scene]")
     CHECK_THROWS_AS(check(s), error);
     add_floor(s, 1.0f);
     CHECK_NOTHROW(check(s));
-    SECTION("index") { s.triangles[1].z = 4; }
-    SECTION("position") { s.positions[2].y = std::numeric_limits<float>::quiet_NaN(); }
-    SECTION("normal") { s.normals[0] *= 1.1f; }
-    SECTION("object") { s.object[0] = 7; }
+    SECTION("index")
+    {
+        s.triangles[1].z = 4;
+    }
+    SECTION("position")
+    {
+        s.positions[2].y = std::numeric_limits<float>::quiet_NaN();
+    }
+    SECTION("normal")
+    {
+        s.normals[0] *= 1.1f;
+    }
+    SECTION("object")
+    {
+        s.object[0] = 7;
+    }
     CHECK_THROWS_AS(check(s), error);
 }
 
@@ -75,7 +86,7 @@ TEST_CASE("a scene of degenerate triangles has no ray tree", "[tools][scene]")
     scene s;
     add_floor(s, 1.0f);
     const std::size_t real = s.triangles.size();
-    s.triangles.push_back({0, 0, 1});
+    s.triangles.push_back({ 0, 0, 1 });
     s.object.push_back(0);
     s.material.push_back(0);
     CHECK(ray_tree(s).degenerate_count() == 1);
@@ -88,12 +99,12 @@ TEST_CASE("a scene of degenerate triangles has no ray tree", "[tools][scene]")
 TEST_CASE("view space follows yaw and pitch", "[tools][camera]")
 {
     camera c;
-    c.eye = {1.0f, 2.0f, 3.0f};
+    c.eye = { 1.0f, 2.0f, 3.0f };
     c.yaw = GENERATE(0.0f, 37.0f, 90.0f, -135.0f);
     c.pitch = GENERATE(0.0f, -20.0f, 90.0f, -90.0f);
     const glm::mat4 view = view_matrix(c);
     const float yaw = c.yaw * 3.14159265f / 180.0f, pitch = c.pitch * 3.14159265f / 180.0f;
-    const glm::vec3 f{std::sin(yaw) * std::cos(pitch), std::sin(pitch), -std::cos(yaw) * std::cos(pitch)};
+    const glm::vec3 f{ std::sin(yaw) * std::cos(pitch), std::sin(pitch), -std::cos(yaw) * std::cos(pitch) };
     CHECK(glm::length(forward(c) - f) < 1e-6f);
     CHECK(glm::length(glm::vec3(view * glm::vec4(c.eye + 2.0f * f, 1.0f)) - glm::vec3(0.0f, 0.0f, -2.0f)) < 1e-5f);
     const glm::mat3 r(view);
@@ -105,14 +116,13 @@ TEST_CASE("view space follows yaw and pitch", "[tools][camera]")
 TEST_CASE("a framed scene is wholly inside the picture and the depth range", "[tools][camera]")
 {
     const float aspect = GENERATE(1.0f, 16.0f / 9.0f, 0.5f);
-    const bounds b{{-3.0f, 0.0f, 5.0f}, {4.0f, 10.0f, 6.0f}};
+    const bounds b{ { -3.0f, 0.0f, 5.0f }, { 4.0f, 10.0f, 6.0f } };
     const camera c = frame(b, aspect);
     const depth_range range = clip_range(b, c);
     const frustum f = perspective(c, aspect, range);
-    for (int corner = 0; corner < 8; ++corner)
-    {
-        const glm::vec4 p{(corner & 1) != 0 ? b.high.x : b.low.x, (corner & 2) != 0 ? b.high.y : b.low.y,
-                          (corner & 4) != 0 ? b.high.z : b.low.z, 1.0f};
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec4 p{ (corner & 1) != 0 ? b.high.x : b.low.x, (corner & 2) != 0 ? b.high.y : b.low.y,
+                           (corner & 4) != 0 ? b.high.z : b.low.z, 1.0f };
         const glm::vec3 v(view_matrix(c) * p);
         CHECK(-v.z > f.near);
         CHECK(-v.z < f.far);
@@ -129,44 +139,44 @@ TEST_CASE("the G-buffer of a plane is its closed form", "[tools][gbuffer]")
     add_floor(s, 1000.0f);
     const ray_tree tree(s);
     camera c;
-    c.eye = {3.0f, 2.0f, 5.0f};
+    c.eye = { 3.0f, 2.0f, 5.0f };
     c.yaw = 30.0f;
     c.pitch = -25.0f;
     c.fov = 70.0f;
     constexpr int width = 61, height = 37;
-    frustum f = perspective(c, static_cast<float>(width) / height, {0.1f, 500.0f});
+    frustum f = perspective(c, static_cast<float>(width) / height, { 0.1f, 500.0f });
     SECTION("symmetric") {}
-    SECTION("off-centre") { f.left *= 0.3f, f.top *= 1.4f; }
+    SECTION("off-centre")
+    {
+        f.left *= 0.3f, f.top *= 1.4f;
+    }
     SECTION("orthographic")
     {
-        f = orthographic(c, static_cast<float>(width) / height, 2.0f, {0.1f, 500.0f});
+        f = orthographic(c, static_cast<float>(width) / height, 2.0f, { 0.1f, 500.0f });
     }
     const gbuffer g = trace_gbuffer(s, tree, c, f, width, height);
 
     const glm::dmat3 axes = view_axes(c);
     std::size_t hits = 0;
     for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x)
-        {
+        for (int x = 0; x < width; ++x) {
             const std::size_t i = static_cast<std::size_t>(y * width + x);
-            const double u = f.left + (double{f.right} - f.left) * (x + 0.5) / width;
-            const double v = f.top + (double{f.bottom} - f.top) * (y + 0.5) / height;
-            const glm::dvec3 from =
-                f.orthographic ? glm::dvec3(c.eye) + axes * glm::dvec3(u, v, 0.0) : glm::dvec3(c.eye);
+            const double u = double{ f.left } + (double{ f.right } - double{ f.left }) * (x + 0.5) / width;
+            const double v = double{ f.top } + (double{ f.bottom } - double{ f.top }) * (y + 0.5) / height;
+            const glm::dvec3 from = f.orthographic ? glm::dvec3(c.eye) + axes * glm::dvec3(u, v, 0.0) : glm::dvec3(c.eye);
             const glm::dvec3 along = axes * (f.orthographic ? glm::dvec3(0.0, 0.0, -1.0) : glm::dvec3(u, v, -1.0));
             const double t = -from.y / along.y;
             const glm::dvec3 p = from + t * along;
             const bool hit = t > 0.1 && t < 500.0 && std::abs(p.x) < 1000.0 && std::abs(p.z) < 1000.0;
             REQUIRE((g.hit[i] != 0) == hit);
-            if (!hit)
-            {
+            if (!hit) {
                 CHECK(g.depth[i] == 0.0f);
                 CHECK(g.object[i] == nothing);
                 CHECK(g.normal[i] == glm::vec3(0.0f));
                 continue;
             }
             ++hits;
-            CHECK(std::abs(g.depth[i] - t) <= 1.2e-7 * t);
+            CHECK(std::abs(double{ g.depth[i] } - t) <= 1.2e-7 * t);
             CHECK(g.position[i].z == -g.depth[i]);
             CHECK(glm::length(glm::dvec3(g.world[i]) - p) < 1e-6 * (10.0 + t));
             CHECK(glm::length(glm::dvec3(g.normal[i]) - glm::transpose(axes) * glm::dvec3(0.0, 1.0, 0.0)) < 1e-6);
@@ -179,6 +189,7 @@ TEST_CASE("the G-buffer of a plane is its closed form", "[tools][gbuffer]")
 
 TEST_CASE("normals are turned toward the viewer", "[tools][gbuffer]")
 {
+    const float side = GENERATE(1.0f, -1.0f);
     scene s;
     add_floor(s, 10.0f);
     SECTION("as made") {}
@@ -192,12 +203,10 @@ TEST_CASE("normals are turned toward the viewer", "[tools][gbuffer]")
         for (glm::uvec3& t : s.triangles)
             std::swap(t.y, t.z);
     }
-    const float side = GENERATE(1.0f, -1.0f);
     camera c = camera_above(0.0f, 3.0f * side, 0.0f, 60.0f);
     c.pitch *= side;
-    const gbuffer g = trace_gbuffer(s, ray_tree(s), c, perspective(c, 1.0f, {0.1f, 10.0f}), 9, 9);
-    for (std::size_t i = 0; i < g.size(); ++i)
-    {
+    const gbuffer g = trace_gbuffer(s, ray_tree(s), c, perspective(c, 1.0f, { 0.1f, 10.0f }), 9, 9);
+    for (std::size_t i = 0; i < g.size(); ++i) {
         REQUIRE(g.hit[i] == 1);
         CHECK(glm::length(g.normal[i] - glm::vec3(0.0f, 0.0f, 1.0f)) < 1e-6f);
         CHECK(glm::length(g.geometric_normal[i] - glm::vec3(0.0f, 0.0f, 1.0f)) < 1e-6f);

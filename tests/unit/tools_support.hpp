@@ -10,14 +10,13 @@
 #include <unistd.h>
 
 // A directory of its own for one test, gone afterwards.
-class scratch_directory
-{
+class scratch_directory {
 public:
     scratch_directory()
     {
         static int number = 0;
-        path = std::filesystem::temp_directory_path() /
-               ("ao_tools_" + std::to_string(::getpid()) + "_" + std::to_string(number++));
+        path =
+            std::filesystem::temp_directory_path() / ("ao_tools_" + std::to_string(::getpid()) + "_" + std::to_string(number++));
         std::filesystem::create_directories(path);
     }
     scratch_directory(const scratch_directory&) = delete;
@@ -36,7 +35,7 @@ public:
 inline std::string read_all(const std::filesystem::path& path)
 {
     std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
+    return { std::istreambuf_iterator<char>(in), {} };
 }
 
 inline std::size_t files_in(const std::filesystem::path& directory)
@@ -50,14 +49,14 @@ inline void add_floor(ao::tools::scene& s, float half)
 {
     ao::tools::mesh_builder m(s);
     m.begin("floor", "any");
-    m.quad({-half, 0.0f, half}, {half, 0.0f, half}, {half, 0.0f, -half}, {-half, 0.0f, -half});
+    m.quad({ -half, 0.0f, half }, { half, 0.0f, half }, { half, 0.0f, -half }, { -half, 0.0f, -half });
 }
 
 // From `height` straight down on (x, z); the picture's columns run along x, its top toward -z.
 inline ao::tools::camera camera_above(float x, float height, float z, float fov)
 {
     ao::tools::camera c;
-    c.eye = {x, height, z};
+    c.eye = { x, height, z };
     c.pitch = -90.0f;
     c.fov = fov;
     return c;

@@ -5,13 +5,11 @@
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 
-namespace ao::tools
-{
+namespace ao::tools {
 
 // Angles in degrees, `fov` the vertical one; forward = (sin yaw cos pitch, sin pitch, -cos yaw cos pitch).
-struct camera
-{
-    glm::vec3 eye{0.0f};
+struct camera {
+    glm::vec3 eye{ 0.0f };
     float yaw = 0.0f;
     float pitch = 0.0f; // -90..90
     float fov = 60.0f;  // 0..180, both ends excluded
@@ -27,8 +25,7 @@ struct camera
 
 // What one view sees. View space; the sides are measured on the plane z = -1 (perspective) or on every plane
 // (orthographic), near and far along -z, far may be infinite.
-struct frustum
-{
+struct frustum {
     float left = -1.0f;
     float right = 1.0f;
     float bottom = -1.0f;
@@ -38,8 +35,7 @@ struct frustum
     float far = 100.0f;
 };
 
-struct depth_range
-{
+struct depth_range {
     float near;
     float far;
 };
@@ -59,8 +55,7 @@ struct depth_range
 
 // The ray through a pixel's centre in view space, row 0 on top: the points (origin_x + t x, origin_y + t y, -t),
 // hence t is the linear depth.
-struct pixel_ray
-{
+struct pixel_ray {
     double origin_x;
     double origin_y;
     double x;

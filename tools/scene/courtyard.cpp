@@ -5,10 +5,8 @@
 #include <cmath>
 #include <string>
 
-namespace ao::tools
-{
-namespace
-{
+namespace ao::tools {
+namespace {
 
 using glm::vec3;
 
@@ -17,17 +15,16 @@ constexpr float half_turn = 3.14159265f;
 void ground(mesh_builder& m, parts::dice& d)
 {
     m.begin("ground", "earth");
-    m.quad({-60.0f, -0.03f, 20.0f}, {60.0f, -0.03f, 20.0f}, {60.0f, -0.03f, -45.0f}, {-60.0f, -0.03f, -45.0f});
+    m.quad({ -60.0f, -0.03f, 20.0f }, { 60.0f, -0.03f, 20.0f }, { 60.0f, -0.03f, -45.0f }, { -60.0f, -0.03f, -45.0f });
 
     m.begin("paving", "stone");
     constexpr int slabs = 16;
     constexpr float pitch = 20.0f / slabs, joint = 0.015f;
     for (int row = 0; row < slabs; ++row)
-        for (int column = 0; column < slabs; ++column)
-        {
+        for (int column = 0; column < slabs; ++column) {
             const float x = -10.0f + pitch * static_cast<float>(column), z = -10.0f + pitch * static_cast<float>(row);
             const float top = d.between(-0.004f, 0.004f);
-            m.slab({x + joint, -0.08f, z + joint}, {x + pitch - joint, top, z + pitch - joint}, 0.012f);
+            m.slab({ x + joint, -0.08f, z + joint }, { x + pitch - joint, top, z + pitch - joint }, 0.012f);
         }
 }
 
@@ -38,27 +35,28 @@ void arcade(mesh_builder& m)
     constexpr int bays = 6;
     constexpr float last = first + pitch * bays;
 
-    for (int i = 0; i <= bays; ++i)
-    {
+    for (int i = 0; i <= bays; ++i) {
         m.begin("arcade column " + std::to_string(i), "stone");
-        parts::column(m, {front, 0.005f, first + pitch * static_cast<float>(i)}, 0.24f, spring - 0.005f);
+        parts::column(m, { front, 0.005f, first + pitch * static_cast<float>(i) }, 0.24f, spring - 0.005f);
     }
     m.begin("arches", "plaster");
     parts::arches(m, front, 0.28f, first, last, spring, top, 1.3f, bays);
 
     m.begin("arcade wall", "plaster");
-    m.box({back - 0.4f, -0.05f, first - 0.4f}, {back, top + 0.01f, last + 0.4f});
+    m.box({ back - 0.4f, -0.05f, first - 0.4f }, { back, top + 0.01f, last + 0.4f });
 
     m.begin("vault", "plaster");
     constexpr float radius = (front - 0.28f - back) / 2.0f, middle = back + radius;
-    m.sheet([](float u, float v)
-            { return vec3(middle + radius * std::cos(half_turn * u), spring + 0.2f + radius * std::sin(half_turn * u),
-                          first + (last - first) * v); },
-            32, 12);
+    m.sheet(
+        [](float u, float v) {
+            return vec3(middle + radius * std::cos(half_turn * u), spring + 0.2f + radius * std::sin(half_turn * u),
+                        first + (last - first) * v);
+        },
+        32, 12);
 
     m.begin("arcade cornice", "stone");
-    m.box({back - 0.5f, top + 0.02f, first - 0.5f}, {front + 0.45f, top + 0.18f, last + 0.5f});
-    m.box({back - 0.4f, top + 0.19f, first - 0.4f}, {front + 0.35f, top + 0.45f, last + 0.4f});
+    m.box({ back - 0.5f, top + 0.02f, first - 0.5f }, { front + 0.45f, top + 0.18f, last + 0.5f });
+    m.box({ back - 0.4f, top + 0.19f, first - 0.4f }, { front + 0.35f, top + 0.45f, last + 0.4f });
 }
 
 // Right: x from 6.5 to 9.5, columns that carry beams.
@@ -67,28 +65,27 @@ void pergola(mesh_builder& m, parts::dice& d)
     constexpr float pitch = 3.2f, inner = 6.6f, outer = 9.4f, first = -8.0f, height = 3.0f;
     constexpr int bays = 5;
     constexpr float last = first + pitch * bays;
-    for (int i = 0; i <= bays; ++i)
-    {
+    for (int i = 0; i <= bays; ++i) {
         m.begin("pergola column " + std::to_string(i), "stone");
-        parts::column(m, {inner, 0.005f, first + pitch * static_cast<float>(i)}, 0.2f, height - 0.005f);
+        parts::column(m, { inner, 0.005f, first + pitch * static_cast<float>(i) }, 0.2f, height - 0.005f);
     }
     m.begin("pergola beams", "wood");
-    m.box({inner - 0.12f, height + 0.005f, first - 0.5f}, {inner + 0.12f, height + 0.28f, last + 0.5f});
+    m.box({ inner - 0.12f, height + 0.005f, first - 0.5f }, { inner + 0.12f, height + 0.28f, last + 0.5f });
     for (float z = first - 0.2f; z < last + 0.3f; z += 0.8f)
-        m.box({inner - 0.5f, height + 0.285f, z - 0.05f}, {outer + 0.75f, height + 0.46f, z + 0.05f});
+        m.box({ inner - 0.5f, height + 0.285f, z - 0.05f }, { outer + 0.75f, height + 0.46f, z + 0.05f });
     for (float x = inner + 0.2f; x < outer + 0.5f; x += 0.45f)
-        m.box({x - 0.025f, height + 0.465f, first - 0.4f}, {x + 0.025f, height + 0.5f, last + 0.4f});
+        m.box({ x - 0.025f, height + 0.465f, first - 0.4f }, { x + 0.025f, height + 0.5f, last + 0.4f });
 
     m.begin("garden wall", "plaster");
-    m.box({10.2f, -0.05f, -10.0f}, {10.6f, 4.2f, 10.0f});
+    m.box({ 10.2f, -0.05f, -10.0f }, { 10.6f, 4.2f, 10.0f });
     m.begin("garden wall coping", "stone");
-    m.box({10.12f, 4.21f, -10.05f}, {10.68f, 4.31f, 10.05f});
+    m.box({ 10.12f, 4.21f, -10.05f }, { 10.68f, 4.31f, 10.05f });
 
     m.begin("wall ivy", "leaf");
     parts::ivy(m, d, 10.2f, -1.0f, -7.5f, 1.5f, 4.2f, 2400);
     m.begin("pergola ivy", "leaf");
     for (int i = 0; i < 3; ++i)
-        parts::shrub(m, d, {inner + 0.4f, height + 0.55f, first + pitch * (0.6f + 1.7f * static_cast<float>(i))}, 0.75f, 360);
+        parts::shrub(m, d, { inner + 0.4f, height + 0.55f, first + pitch * (0.6f + 1.7f * static_cast<float>(i)) }, 0.75f, 360);
 }
 
 // Back: z from -10 to -14, floor 0.9 up.
@@ -97,76 +94,73 @@ void terrace(mesh_builder& m)
     constexpr float rise = 0.15f, tread = 0.34f, floor = 0.9f, edge = -10.2f;
     constexpr int count = 6;
     m.begin("steps", "stone");
-    for (int i = 0; i < count; ++i)
-    {
+    for (int i = 0; i < count; ++i) {
         const float top = rise * static_cast<float>(i + 1);
         const float front = edge + tread * static_cast<float>(count - i);
         const float back = edge + tread * static_cast<float>(count - i - 1) - 0.03f;
-        m.slab({-3.0f, 0.006f, back - (i == count - 1 ? 0.2f : 0.0f)}, {3.0f, top, front}, 0.015f);
+        m.slab({ -3.0f, 0.006f, back - (i == count - 1 ? 0.2f : 0.0f) }, { 3.0f, top, front }, 0.015f);
     }
     m.begin("step cheeks", "stone");
-    for (const float side : {-1.0f, 1.0f})
-        m.box({side * 3.2f - 0.19f, 0.007f, edge + 0.01f}, {side * 3.2f + 0.19f, floor + 0.12f, edge + tread * count + 0.12f});
+    for (const float side : { -1.0f, 1.0f })
+        m.box({ side * 3.2f - 0.19f, 0.007f, edge + 0.01f },
+              { side * 3.2f + 0.19f, floor + 0.12f, edge + tread * count + 0.12f });
 
     m.begin("terrace", "stone");
-    m.box({-12.0f, -0.05f, -15.0f}, {12.0f, floor - 0.01f, edge});
+    m.box({ -12.0f, -0.05f, -15.0f }, { 12.0f, floor - 0.01f, edge });
 
     m.begin("railing left", "iron");
-    parts::railing(m, {-6.6f, floor - 0.01f, edge - 0.15f}, {-3.2f, floor - 0.01f, edge - 0.15f}, 1.0f);
+    parts::railing(m, { -6.6f, floor - 0.01f, edge - 0.15f }, { -3.2f, floor - 0.01f, edge - 0.15f }, 1.0f);
     m.begin("railing right", "iron");
-    parts::railing(m, {3.2f, floor - 0.01f, edge - 0.15f}, {10.0f, floor - 0.01f, edge - 0.15f}, 1.0f);
+    parts::railing(m, { 3.2f, floor - 0.01f, edge - 0.15f }, { 10.0f, floor - 0.01f, edge - 0.15f }, 1.0f);
 
     m.begin("back wall left", "plaster");
-    m.box({-12.0f, floor - 0.02f, -14.2f}, {-1.9f, 5.2f, -13.7f});
+    m.box({ -12.0f, floor - 0.02f, -14.2f }, { -1.9f, 5.2f, -13.7f });
     m.begin("back wall right", "plaster");
-    m.box({1.9f, floor - 0.02f, -14.2f}, {12.0f, 5.2f, -13.7f});
+    m.box({ 1.9f, floor - 0.02f, -14.2f }, { 12.0f, 5.2f, -13.7f });
     m.begin("back wall coping", "stone");
-    m.box({-12.1f, 5.21f, -14.35f}, {-1.85f, 5.36f, -13.55f});
-    m.box({1.85f, 5.21f, -14.35f}, {12.1f, 5.36f, -13.55f});
-    for (const float side : {-1.0f, 1.0f})
-    {
+    m.box({ -12.1f, 5.21f, -14.35f }, { -1.85f, 5.36f, -13.55f });
+    m.box({ 1.85f, 5.21f, -14.35f }, { 12.1f, 5.36f, -13.55f });
+    for (const float side : { -1.0f, 1.0f }) {
         m.begin(side < 0.0f ? "gate column left" : "gate column right", "stone");
-        parts::column(m, {side * 1.5f, floor - 0.005f, -13.45f}, 0.26f, 3.6f);
+        parts::column(m, { side * 1.5f, floor - 0.005f, -13.45f }, 0.26f, 3.6f);
     }
     m.begin("gate lintel", "stone");
-    m.box({-2.1f, floor + 3.6f, -13.9f}, {2.1f, floor + 4.05f, -13.0f});
-    m.box({-2.3f, floor + 4.06f, -14.0f}, {2.3f, floor + 4.2f, -12.85f});
+    m.box({ -2.1f, floor + 3.6f, -13.9f }, { 2.1f, floor + 4.05f, -13.0f });
+    m.box({ -2.3f, floor + 4.06f, -14.0f }, { 2.3f, floor + 4.2f, -12.85f });
 }
 
 void fountain(mesh_builder& m)
 {
     m.begin("fountain", "stone");
-    const outline_point basin[] = {{1.45f, 0.01f}, {1.45f, 0.12f}, {1.25f, 0.16f}, {1.3f, 0.5f},  {1.42f, 0.55f},
-                                   {1.42f, 0.62f}, {1.18f, 0.62f}, {1.14f, 0.2f},  {0.22f, 0.18f}, {0.14f, 0.45f},
-                                   {0.12f, 0.9f},  {0.2f, 1.0f},   {0.5f, 1.12f},  {0.62f, 1.22f}, {0.62f, 1.26f},
-                                   {0.55f, 1.25f}, {0.3f, 1.14f},  {0.1f, 1.1f},   {0.08f, 1.3f},  {0.1f, 1.36f},
-                                   {0.09f, 1.44f}, {0.05f, 1.49f}, {0.0f, 1.5f}};
-    m.lathe({-0.6f, 0.0f, -2.2f}, basin, 40);
+    const outline_point basin[] = { { 1.45f, 0.01f }, { 1.45f, 0.12f }, { 1.25f, 0.16f }, { 1.3f, 0.5f },   { 1.42f, 0.55f },
+                                    { 1.42f, 0.62f }, { 1.18f, 0.62f }, { 1.14f, 0.2f },  { 0.22f, 0.18f }, { 0.14f, 0.45f },
+                                    { 0.12f, 0.9f },  { 0.2f, 1.0f },   { 0.5f, 1.12f },  { 0.62f, 1.22f }, { 0.62f, 1.26f },
+                                    { 0.55f, 1.25f }, { 0.3f, 1.14f },  { 0.1f, 1.1f },   { 0.08f, 1.3f },  { 0.1f, 1.36f },
+                                    { 0.09f, 1.44f }, { 0.05f, 1.49f }, { 0.0f, 1.5f } };
+    m.lathe({ -0.6f, 0.0f, -2.2f }, basin, 40);
 }
 
 void loose_things(mesh_builder& m, parts::dice& d)
 {
-    const struct
-    {
+    const struct {
         vec3 centre;
         float side;
         float yaw;
-    } crates[] = {{{4.6f, 0.46f, 1.6f}, 0.9f, 12.0f},
-                  {{4.4f, 0.46f, 0.4f}, 0.9f, -20.0f},
-                  {{4.55f, 1.27f, 1.25f}, 0.7f, 35.0f},
-                  {{3.2f, 0.31f, 1.9f}, 0.6f, 50.0f}};
+    } crates[] = { { { 4.6f, 0.46f, 1.6f }, 0.9f, 12.0f },
+                   { { 4.4f, 0.46f, 0.4f }, 0.9f, -20.0f },
+                   { { 4.55f, 1.27f, 1.25f }, 0.7f, 35.0f },
+                   { { 3.2f, 0.31f, 1.9f }, 0.6f, 50.0f } };
     int number = 0;
-    for (const auto& c : crates)
-    {
+    for (const auto& c : crates) {
         m.begin("crate " + std::to_string(number++), "wood");
         parts::crate(m, c.centre, c.side, c.yaw);
     }
 
-    const vec3 tubs[] = {{-4.6f, 0.0f, -7.4f}, {4.6f, 0.0f, -7.4f}, {-4.9f, 0.0f, 3.4f}};
-    const outline_point tub[] = {{0.36f, 0.01f}, {0.44f, 0.5f}, {0.5f, 0.52f}, {0.5f, 0.6f}, {0.43f, 0.6f}, {0.42f, 0.52f}, {0.0f, 0.5f}};
+    const vec3 tubs[] = { { -4.6f, 0.0f, -7.4f }, { 4.6f, 0.0f, -7.4f }, { -4.9f, 0.0f, 3.4f } };
+    const outline_point tub[] = { { 0.36f, 0.01f }, { 0.44f, 0.5f },  { 0.5f, 0.52f }, { 0.5f, 0.6f },
+                                  { 0.43f, 0.6f },  { 0.42f, 0.52f }, { 0.0f, 0.5f } };
     number = 0;
-    for (const vec3& foot : tubs)
-    {
+    for (const vec3& foot : tubs) {
         m.begin("tub " + std::to_string(number), "clay");
         m.lathe(foot, tub, 24);
         m.begin("shrub " + std::to_string(number++), "leaf");
@@ -177,13 +171,13 @@ void loose_things(mesh_builder& m, parts::dice& d)
 void distance(mesh_builder& m)
 {
     m.begin("distant wall", "stone");
-    m.box({-40.0f, -0.05f, -41.0f}, {40.0f, 7.0f, -40.0f});
+    m.box({ -40.0f, -0.05f, -41.0f }, { 40.0f, 7.0f, -40.0f });
     m.begin("distant towers", "stone");
-    for (const float x : {-18.0f, -3.5f, 11.0f, 26.0f})
-        m.box({x - 1.6f, -0.05f, -41.3f}, {x + 1.6f, 9.5f, -39.0f});
+    for (const float x : { -18.0f, -3.5f, 11.0f, 26.0f })
+        m.box({ x - 1.6f, -0.05f, -41.3f }, { x + 1.6f, 9.5f, -39.0f });
     m.begin("distant merlons", "stone");
     for (float x = -39.0f; x < 39.5f; x += 2.0f)
-        m.box({x - 0.5f, 7.01f, -40.9f}, {x + 0.5f, 8.0f, -40.2f});
+        m.box({ x - 0.5f, 7.01f, -40.9f }, { x + 0.5f, 8.0f, -40.2f });
 }
 
 } // namespace
@@ -207,7 +201,7 @@ scene courtyard()
 camera courtyard_camera()
 {
     camera c;
-    c.eye = {4.4f, 2.35f, 8.6f};
+    c.eye = { 4.4f, 2.35f, 8.6f };
     c.yaw = -21.0f;
     c.pitch = -5.0f;
     c.fov = 58.0f;

@@ -2,8 +2,7 @@
 
 #include "camera.hpp"
 
-namespace ao::tools
-{
+namespace ao::tools {
 
 // The bundled scene, in metres, Y up, made anew by each call and always the same: a paved court of 20 x 20 with an
 // arcade and barrel vault on the left, a pergola with ivy on the right, steps to a railed terrace at the back, crates,

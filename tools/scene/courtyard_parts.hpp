@@ -2,12 +2,10 @@
 
 #include "mesh_builder.hpp"
 
-namespace ao::tools::parts
-{
+namespace ao::tools::parts {
 
 // Numbers 0..1 that are the same on every machine, unlike those of <random>'s distributions.
-class dice
-{
+class dice {
 public:
     explicit dice(std::uint32_t seed) : state(seed) {}
     float operator()();
@@ -22,8 +20,7 @@ void column(mesh_builder& m, const glm::vec3& foot, float radius, float height);
 
 // A wall along z at x with a semicircular arch of half width `half` over each centre, springing at `spring`;
 // from `z_low` to `z_high`, `bottom` to `top`, `thickness` to both sides. Open below the springing line.
-void arches(mesh_builder& m, float x, float thickness, float z_low, float z_high, float spring, float top, float half,
-            int count);
+void arches(mesh_builder& m, float x, float thickness, float z_low, float z_high, float spring, float top, float half, int count);
 
 // Posts, two rails and thin bars between, along a straight line on the ground.
 void railing(mesh_builder& m, const glm::vec3& from, const glm::vec3& to, float height);

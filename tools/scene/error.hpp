@@ -3,12 +3,10 @@
 #include <stdexcept>
 #include <string>
 
-namespace ao::tools
-{
+namespace ao::tools {
 
 // What the program reports and ends with: one line, no trailing full stop, caught in main only.
-struct error : std::runtime_error
-{
+struct error : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 

@@ -3,18 +3,16 @@
 #include "error.hpp"
 
 #include <cerrno>
-#include <string>
-#include <system_error>
 #include <fcntl.h>
+#include <string>
 #include <sys/stat.h>
+#include <system_error>
 #include <unistd.h>
 
 #include <utility>
 
-namespace ao::tools
-{
-namespace
-{
+namespace ao::tools {
+namespace {
 
 namespace fs = std::filesystem;
 
@@ -23,8 +21,7 @@ namespace fs = std::filesystem;
     throw error(path.string() + ": cannot write: " + std::generic_category().message(code));
 }
 
-class descriptor
-{
+class descriptor {
 public:
     explicit descriptor(int d) : number(d) {}
     descriptor(const descriptor&) = delete;
@@ -46,8 +43,7 @@ private:
 // 0 or errno.
 int write_all(int file, std::string_view bytes)
 {
-    while (!bytes.empty())
-    {
+    while (!bytes.empty()) {
         const ssize_t written = ::write(file, bytes.data(), bytes.size());
         if (written < 0 && errno == EINTR)
             continue;
@@ -107,8 +103,7 @@ void write_file(const fs::path& path, std::string_view bytes)
         code = closing;
     if (code == 0 && ::rename(temporary.c_str(), target.c_str()) != 0)
         code = errno;
-    if (code != 0)
-    {
+    if (code != 0) {
         ::unlink(temporary.c_str());
         fail(path, code);
     }

@@ -3,8 +3,7 @@
 #include <filesystem>
 #include <string_view>
 
-namespace ao::tools
-{
+namespace ao::tools {
 
 // The file holds all of `bytes` afterwards, or is as it was before: written beside it under another name, flushed, and
 // renamed. A link is followed; a device or pipe, which cannot be replaced, is written to as it is.

@@ -8,15 +8,12 @@
 
 #include <cmath>
 
-namespace ao::tools
-{
-namespace
-{
+namespace ao::tools {
+namespace {
 
 constexpr int tile = 16;
 
-struct tracer
-{
+struct tracer {
     const scene& s;
     const ray_tree& tree;
     const frustum& f;
@@ -71,8 +68,8 @@ void tracer::pixel(int x, int y) const
     const glm::uvec3 corners = s.triangles[triangle];
     const glm::dvec3 a = s.positions[corners.x], b = s.positions[corners.y], c = s.positions[corners.z];
     glm::dvec3 geometric = glm::normalize(glm::cross(b - a, c - a));
-    glm::vec3 shading = shading_normal(s, corners, double{query.hit.u}, double{query.hit.v}, geometric);
-    const double t = refine(double{query.ray.tfar}, origin, direction, a, geometric);
+    glm::vec3 shading = shading_normal(s, corners, double{ query.hit.u }, double{ query.hit.v }, geometric);
+    const double t = refine(double{ query.ray.tfar }, origin, direction, a, geometric);
 
     // The file's winding and the file's normals need not agree, so each is turned by itself.
     if (glm::dot(geometric, direction) > 0.0)
@@ -111,14 +108,12 @@ gbuffer trace_gbuffer(const scene& s, const ray_tree& tree, const camera& c, con
     g.material.resize(pixels, nothing);
     g.hit.resize(pixels);
 
-    const tracer t{s, tree, f, c.eye, view_axes(c), g};
-    tbb::parallel_for(tbb::blocked_range2d<int>(0, height, tile, 0, width, tile),
-                      [&](const tbb::blocked_range2d<int>& r)
-                      {
-                          for (int y = r.rows().begin(); y != r.rows().end(); ++y)
-                              for (int x = r.cols().begin(); x != r.cols().end(); ++x)
-                                  t.pixel(x, y);
-                      });
+    const tracer t{ s, tree, f, c.eye, view_axes(c), g };
+    tbb::parallel_for(tbb::blocked_range2d<int>(0, height, tile, 0, width, tile), [&](const tbb::blocked_range2d<int>& r) {
+        for (int y = r.rows().begin(); y != r.rows().end(); ++y)
+            for (int x = r.cols().begin(); x != r.cols().end(); ++x)
+                t.pixel(x, y);
+    });
     return g;
 }
 

@@ -3,14 +3,12 @@
 #include "camera.hpp"
 #include "ray_tree.hpp"
 
-namespace ao::tools
-{
+namespace ao::tools {
 
 inline constexpr std::uint32_t nothing = 0xffffffffu;
 
 // One entry per pixel, row 0 on top. Background: every vector and depth 0, ids `nothing`.
-struct gbuffer
-{
+struct gbuffer {
     int width = 0;
     int height = 0;
     std::vector<glm::vec3> position;         // view space, on the ray through the pixel's centre

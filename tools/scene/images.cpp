@@ -10,13 +10,10 @@
 #include <memory>
 #include <utility>
 
-namespace ao::tools
-{
-namespace
-{
+namespace ao::tools {
+namespace {
 
-struct channel
-{
+struct channel {
     char name;
     std::vector<float> values;
 };
@@ -27,8 +24,7 @@ std::string encode_channels(extent size, std::vector<channel>& channels)
     std::vector<EXRChannelInfo> infos(channels.size());
     std::vector<int> types(channels.size(), TINYEXR_PIXELTYPE_FLOAT);
     std::vector<unsigned char*> pointers;
-    for (std::size_t i = 0; i < channels.size(); ++i)
-    {
+    for (std::size_t i = 0; i < channels.size(); ++i) {
         infos[i] = {};
         infos[i].name[0] = channels[i].name;
         pointers.push_back(reinterpret_cast<unsigned char*>(channels[i].values.data()));
@@ -53,13 +49,12 @@ std::string encode_channels(extent size, std::vector<channel>& channels)
     const char* reason = nullptr;
     const std::size_t count = SaveEXRImageToMemory(&image, &header, &bytes, &reason);
     const std::unique_ptr<unsigned char, decltype(&std::free)> owner(bytes, &std::free);
-    if (count == 0)
-    {
+    if (count == 0) {
         const std::string message = reason != nullptr ? one_line(reason) : "unknown reason";
         FreeEXRErrorMessage(reason);
         throw error("cannot encode an EXR image: " + message);
     }
-    return {reinterpret_cast<const char*>(bytes), count};
+    return { reinterpret_cast<const char*>(bytes), count };
 }
 
 } // namespace
@@ -68,8 +63,7 @@ std::vector<std::uint8_t> to_bytes(std::span<const float> values)
 {
     std::vector<std::uint8_t> bytes;
     bytes.reserve(values.size());
-    for (const float v : values)
-    {
+    for (const float v : values) {
         const float clamped = v > 0.0f ? (v < 1.0f ? v : 1.0f) : 0.0f;
         bytes.push_back(static_cast<std::uint8_t>(std::lround(clamped * 255.0f)));
     }
@@ -79,8 +73,9 @@ std::vector<std::uint8_t> to_bytes(std::span<const float> values)
 std::string encode_png(extent size, int channels, std::span<const std::uint8_t> pixels)
 {
     std::string bytes;
-    const auto append = [](void* to, void* data, int count)
-    { static_cast<std::string*>(to)->append(static_cast<const char*>(data), static_cast<std::size_t>(count)); };
+    const auto append = [](void* to, void* data, int count) {
+        static_cast<std::string*>(to)->append(static_cast<const char*>(data), static_cast<std::size_t>(count));
+    };
     if (stbi_write_png_to_func(append, &bytes, size.width, size.height, channels, pixels.data(), size.width * channels) == 0)
         throw error("cannot encode a PNG image");
     return bytes;
@@ -88,16 +83,15 @@ std::string encode_png(extent size, int channels, std::span<const std::uint8_t> 
 
 std::string encode_exr(extent size, std::span<const float> values)
 {
-    std::vector<channel> channels{{'Y', {values.begin(), values.end()}}};
+    std::vector<channel> channels{ { 'Y', { values.begin(), values.end() } } };
     return encode_channels(size, channels);
 }
 
 std::string encode_exr(extent size, std::span<const glm::vec3> values, const char (&names)[4])
 {
     std::vector<channel> channels;
-    for (int c = 0; c < 3; ++c)
-    {
-        channels.push_back({names[c], {}});
+    for (int c = 0; c < 3; ++c) {
+        channels.push_back({ names[c], {} });
         channels.back().values.reserve(values.size());
         for (const glm::vec3& v : values)
             channels.back().values.push_back(v[c]);

@@ -8,18 +8,13 @@
 #include <string>
 #include <vector>
 
-namespace ao::tools
-{
+namespace ao::tools {
 
 // Row 0 on top, no padding. Preconditions everywhere: 0 < width, height; as many values as the size asks for.
-struct extent
-{
+struct extent {
     int width = 0;
     int height = 0;
-    [[nodiscard]] std::size_t pixels() const
-    {
-        return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    }
+    [[nodiscard]] std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
 };
 
 // 0..1 to the nearest of 256 codes, without a transfer curve; outside and NaN: clamped, NaN to 0.

@@ -7,10 +7,8 @@
 #include <array>
 #include <cmath>
 
-namespace ao::tools
-{
-namespace
-{
+namespace ao::tools {
+namespace {
 
 constexpr float full_turn = 6.28318531f;
 constexpr float sharp = 0.766f; // cosine of 40 degrees
@@ -35,7 +33,7 @@ std::uint32_t mesh_builder::vertex(const glm::vec3& position, const glm::vec3& n
 
 void mesh_builder::triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c)
 {
-    s.triangles.push_back({a, b, c});
+    s.triangles.push_back({ a, b, c });
     s.object.push_back(static_cast<std::uint32_t>(s.object_names.size() - 1));
     s.material.push_back(material);
 }
@@ -61,10 +59,11 @@ void mesh_builder::turned_box(const glm::vec3& centre, const glm::vec3& half, fl
 {
     const float c = std::cos(glm::radians(yaw)), n = std::sin(glm::radians(yaw));
     const glm::vec3 x = half.x * glm::vec3(c, 0.0f, n);
-    const glm::vec3 y{0.0f, half.y, 0.0f};
+    const glm::vec3 y{ 0.0f, half.y, 0.0f };
     const glm::vec3 z = half.z * glm::vec3(-n, 0.0f, c);
-    const auto face = [&](const glm::vec3& out, const glm::vec3& u, const glm::vec3& v)
-    { quad(centre + out - u - v, centre + out + u - v, centre + out + u + v, centre + out - u + v); };
+    const auto face = [&](const glm::vec3& out, const glm::vec3& u, const glm::vec3& v) {
+        quad(centre + out - u - v, centre + out + u - v, centre + out + u + v, centre + out - u + v);
+    };
     face(x, y, z);
     face(-x, z, y);
     face(y, z, x);
@@ -75,14 +74,12 @@ void mesh_builder::turned_box(const glm::vec3& centre, const glm::vec3& half, fl
 
 void mesh_builder::slab(const glm::vec3& low, const glm::vec3& high, float bevel)
 {
-    const auto ring = [&](float y, float inset)
-    {
-        return std::array{glm::vec3(low.x + inset, y, high.z - inset), glm::vec3(high.x - inset, y, high.z - inset),
-                          glm::vec3(high.x - inset, y, low.z + inset), glm::vec3(low.x + inset, y, low.z + inset)};
+    const auto ring = [&](float y, float inset) {
+        return std::array{ glm::vec3(low.x + inset, y, high.z - inset), glm::vec3(high.x - inset, y, high.z - inset),
+                           glm::vec3(high.x - inset, y, low.z + inset), glm::vec3(low.x + inset, y, low.z + inset) };
     };
     const auto foot = ring(low.y, 0.0f), edge = ring(high.y - bevel, 0.0f), top = ring(high.y, bevel);
-    for (std::size_t i = 0; i < 4; ++i)
-    {
+    for (std::size_t i = 0; i < 4; ++i) {
         const std::size_t next = (i + 1) % 4;
         quad(foot[i], foot[next], edge[next], edge[i]);
         quad(edge[i], edge[next], top[next], top[i]);
@@ -97,15 +94,13 @@ void mesh_builder::bar(const glm::vec3& from, const glm::vec3& to, float radius,
     const glm::vec3 x = glm::normalize(glm::cross(helper, along));
     const glm::vec3 y = glm::cross(along, x);
     const auto first = static_cast<std::uint32_t>(s.positions.size());
-    for (int i = 0; i <= sides; ++i)
-    {
+    for (int i = 0; i <= sides; ++i) {
         const float angle = full_turn * static_cast<float>(i) / static_cast<float>(sides);
         const glm::vec3 normal = std::cos(angle) * x + std::sin(angle) * y;
         vertex(from + radius * normal, normal);
         vertex(to + radius * normal, normal);
     }
-    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(sides); ++i)
-    {
+    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(sides); ++i) {
         const std::uint32_t a = first + 2 * i;
         triangle(a, a + 2, a + 3);
         triangle(a, a + 3, a + 1);
@@ -114,14 +109,12 @@ void mesh_builder::bar(const glm::vec3& from, const glm::vec3& to, float radius,
 
 void mesh_builder::lathe(const glm::vec3& foot, std::span<const outline_point> outline, int sides)
 {
-    const auto normal_of = [&](std::size_t segment)
-    {
+    const auto normal_of = [&](std::size_t segment) {
         const outline_point &a = outline[segment], &b = outline[segment + 1];
         return glm::normalize(glm::vec3(b.height - a.height, a.radius - b.radius, 0.0f));
     };
     // The end of a segment leans toward its neighbour where the bend is smooth.
-    const auto end_normal = [&](std::size_t segment, std::size_t neighbour)
-    {
+    const auto end_normal = [&](std::size_t segment, std::size_t neighbour) {
         const glm::vec3 own = normal_of(segment);
         if (neighbour + 1 >= outline.size())
             return own;
@@ -129,23 +122,19 @@ void mesh_builder::lathe(const glm::vec3& foot, std::span<const outline_point> o
         return glm::dot(own, other) > sharp ? glm::normalize(own + other) : own;
     };
 
-    for (std::size_t segment = 0; segment + 1 < outline.size(); ++segment)
-    {
-        const glm::vec3 normals[2] = {end_normal(segment, segment - 1), end_normal(segment, segment + 1)};
+    for (std::size_t segment = 0; segment + 1 < outline.size(); ++segment) {
+        const glm::vec3 normals[2] = { end_normal(segment, segment - 1), end_normal(segment, segment + 1) };
         const auto first = static_cast<std::uint32_t>(s.positions.size());
-        for (int i = 0; i <= sides; ++i)
-        {
+        for (int i = 0; i <= sides; ++i) {
             const float angle = full_turn * static_cast<float>(i % sides) / static_cast<float>(sides);
             const float c = std::cos(angle), n = std::sin(angle);
-            for (std::size_t end = 0; end < 2; ++end)
-            {
+            for (std::size_t end = 0; end < 2; ++end) {
                 const outline_point& p = outline[segment + end];
                 vertex(foot + glm::vec3(p.radius * c, p.height, -p.radius * n),
                        glm::vec3(normals[end].x * c, normals[end].y, -normals[end].x * n));
             }
         }
-        for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(sides); ++i)
-        {
+        for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(sides); ++i) {
             const std::uint32_t a = first + 2 * i;
             if (outline[segment].radius > 0.0f)
                 triangle(a, a + 2, a + 3);
@@ -160,8 +149,7 @@ void mesh_builder::sheet(const std::function<glm::vec3(float u, float v)>& surfa
     constexpr float step = 1.0e-3f;
     const auto first = static_cast<std::uint32_t>(s.positions.size());
     for (int row = 0; row <= rows; ++row)
-        for (int column = 0; column <= columns; ++column)
-        {
+        for (int column = 0; column <= columns; ++column) {
             const float u = static_cast<float>(column) / static_cast<float>(columns);
             const float v = static_cast<float>(row) / static_cast<float>(rows);
             const glm::vec3 du = surface(u + step, v) - surface(u - step, v);
@@ -170,8 +158,7 @@ void mesh_builder::sheet(const std::function<glm::vec3(float u, float v)>& surfa
         }
     const auto stride = static_cast<std::uint32_t>(columns + 1);
     for (std::uint32_t row = 0; row < static_cast<std::uint32_t>(rows); ++row)
-        for (std::uint32_t column = 0; column < static_cast<std::uint32_t>(columns); ++column)
-        {
+        for (std::uint32_t column = 0; column < static_cast<std::uint32_t>(columns); ++column) {
             const std::uint32_t a = first + row * stride + column;
             triangle(a, a + 1, a + stride + 1);
             triangle(a, a + stride + 1, a + stride);

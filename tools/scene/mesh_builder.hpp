@@ -6,19 +6,16 @@
 #include <span>
 #include <string_view>
 
-namespace ao::tools
-{
+namespace ao::tools {
 
 // A point of an outline that is turned about an axis: distance from it and height along it.
-struct outline_point
-{
+struct outline_point {
     float radius;
     float height;
 };
 
 // Adds shapes to a scene, each to the object and material named last. Units and axes are the scene's; Y is up.
-class mesh_builder
-{
+class mesh_builder {
 public:
     explicit mesh_builder(scene& to) : s(to) {}
 

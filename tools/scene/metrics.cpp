@@ -6,10 +6,8 @@
 #include <limits>
 #include <vector>
 
-namespace ao::tools
-{
-namespace
-{
+namespace ao::tools {
+namespace {
 
 template <class Picture>
 picture_error measure(Picture x, std::span<const float> a, std::span<const float> b, std::span<const std::uint8_t> mask)
@@ -17,12 +15,11 @@ picture_error measure(Picture x, std::span<const float> a, std::span<const float
     picture_error e;
     double square = 0.0, difference = 0.0;
     std::vector<double> sizes;
-    for (std::size_t i = 0; i < mask.size(); ++i)
-    {
+    for (std::size_t i = 0; i < mask.size(); ++i) {
         if (mask[i] == 0)
             continue;
-        const double to_a = x(i) - double{a[i]};
-        const double to_b = x(i) - double{b[i]};
+        const double to_a = x(i) - double{ a[i] };
+        const double to_b = x(i) - double{ b[i] };
         square += to_a * to_b;
         difference += (to_a + to_b) / 2.0;
         sizes.push_back(std::abs(to_a + to_b) / 2.0);
@@ -44,11 +41,10 @@ picture_error measure(Picture x, std::span<const float> a, std::span<const float
 picture_error error_against(std::span<const float> x, std::span<const float> a, std::span<const float> b,
                             std::span<const std::uint8_t> mask)
 {
-    return measure([&](std::size_t i) { return double{x[i]}; }, a, b, mask);
+    return measure([&](std::size_t i) { return double{ x[i] }; }, a, b, mask);
 }
 
-picture_error error_of_best_constant(std::span<const float> a, std::span<const float> b,
-                                     std::span<const std::uint8_t> mask)
+picture_error error_of_best_constant(std::span<const float> a, std::span<const float> b, std::span<const std::uint8_t> mask)
 {
     const double minus_best = measure([](std::size_t) { return 0.0; }, a, b, mask).bias;
     return measure([&](std::size_t) { return -minus_best; }, a, b, mask);
@@ -58,12 +54,11 @@ agreement agreement_of(std::span<const float> x, std::span<const float> y)
 {
     agreement result;
     result.pixels = x.size();
-    for (std::size_t i = 0; i < x.size(); ++i)
-    {
+    for (std::size_t i = 0; i < x.size(); ++i) {
         if (std::bit_cast<std::uint32_t>(x[i]) == std::bit_cast<std::uint32_t>(y[i]))
             continue;
         ++result.differing;
-        const double size = std::abs(double{x[i]} - double{y[i]});
+        const double size = std::abs(double{ x[i] } - double{ y[i] });
         result.largest = std::max(result.largest, size >= 0.0 ? size : std::numeric_limits<double>::infinity());
     }
     return result;

@@ -4,14 +4,12 @@
 #include <cstdint>
 #include <span>
 
-namespace ao::tools
-{
+namespace ao::tools {
 
 // Of a picture x against two independent references a and b of the same truth, over the pixels of the mask.
 // Mean square error = mean((x - a)(x - b)): the references' own noise, being independent, averages out of it instead of
 // adding to it. It can come out slightly below zero; the root is then 0.
-struct picture_error
-{
+struct picture_error {
     std::size_t pixels = 0;
     double rmse = 0.0;
     double bias = 0.0; // mean(x - (a+b)/2), > 0: too bright
@@ -26,8 +24,7 @@ struct picture_error
 [[nodiscard]] picture_error error_of_best_constant(std::span<const float> a, std::span<const float> b,
                                                    std::span<const std::uint8_t> mask);
 
-struct agreement
-{
+struct agreement {
     std::size_t pixels = 0;
     std::size_t differing = 0; // in any bit, so +0 and -0 differ and a NaN agrees with itself
     double largest = 0.0;      // |x - y| over the differing pixels; infinite where either is NaN

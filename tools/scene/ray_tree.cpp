@@ -4,10 +4,8 @@
 
 #include <algorithm>
 
-namespace ao::tools
-{
-namespace
-{
+namespace ao::tools {
+namespace {
 
 void throw_on_failure(RTCDevice device)
 {
@@ -37,12 +35,11 @@ ray_tree::ray_tree(const scene& s) : device(rtcNewDevice(nullptr))
     rtcSetSceneBuildQuality(tree.get(), RTC_BUILD_QUALITY_HIGH);
 
     const RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    void* const vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                   sizeof(glm::vec3), s.positions.size());
-    void* const indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                  sizeof(glm::uvec3), triangles.size());
-    if (vertices != nullptr && indices != nullptr)
-    {
+    void* const vertices =
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), s.positions.size());
+    void* const indices =
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), triangles.size());
+    if (vertices != nullptr && indices != nullptr) {
         std::copy(s.positions.begin(), s.positions.end(), static_cast<glm::vec3*>(vertices));
         std::transform(triangles.begin(), triangles.end(), static_cast<glm::uvec3*>(indices),
                        [&](std::uint32_t t) { return s.triangles[t]; });

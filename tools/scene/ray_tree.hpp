@@ -6,13 +6,11 @@
 
 #include <memory>
 
-namespace ao::tools
-{
+namespace ao::tools {
 
 // An Embree tree over the triangles of a scene that have an area; watertight (RTC_SCENE_FLAG_ROBUST).
 // Holds a copy of what it needs, so the scene may go first. Queries from any number of threads.
-class ray_tree
-{
+class ray_tree {
 public:
     // Throws `error` when Embree cannot build it, or when no triangle has an area.
     explicit ray_tree(const scene& s);
@@ -26,12 +24,10 @@ public:
     [[nodiscard]] std::size_t degenerate_count() const { return left_out; }
 
 private:
-    struct release_device
-    {
+    struct release_device {
         void operator()(RTCDevice d) const { rtcReleaseDevice(d); }
     };
-    struct release_scene
-    {
+    struct release_scene {
         void operator()(RTCScene s) const { rtcReleaseScene(s); }
     };
 

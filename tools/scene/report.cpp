@@ -4,10 +4,8 @@
 #include <cstdint>
 #include <cstdio>
 
-namespace ao::tools
-{
-namespace
-{
+namespace ao::tools {
+namespace {
 
 using row = std::vector<std::string>;
 
@@ -28,10 +26,10 @@ std::string shortest(double value)
 row error_cells(const std::optional<report_error>& e)
 {
     if (!e)
-        return {"–", "–", "–"};
+        return { "–", "–", "–" };
     char bias[64];
     std::snprintf(bias, sizeof bias, "%+.4f", e->bias);
-    return {fixed(e->rmse, 4), bias, fixed(e->p99, 4)};
+    return { fixed(e->rmse, 4), bias, fixed(e->p99, 4) };
 }
 
 std::string passes_cell(const std::vector<report_pass>& passes)
@@ -44,17 +42,14 @@ std::string passes_cell(const std::vector<report_pass>& passes)
 
 std::vector<row> run_table(const report_data& data)
 {
-    std::vector<row> rows{{"backend", "device", "route", "passes, ms", "total ms", "first frame ms", "RMSE", "bias", "p99"}};
-    for (const report_run& r : data.runs)
-    {
-        rows.push_back({r.backend, r.device, r.route, passes_cell(r.passes), fixed(r.total_ms, 2),
-                        fixed(r.first_frame_ms, 1)});
+    std::vector<row> rows{ { "backend", "device", "route", "passes, ms", "total ms", "first frame ms", "RMSE", "bias", "p99" } };
+    for (const report_run& r : data.runs) {
+        rows.push_back({ r.backend, r.device, r.route, passes_cell(r.passes), fixed(r.total_ms, 2), fixed(r.first_frame_ms, 1) });
         const row cells = error_cells(r.error);
         rows.back().insert(rows.back().end(), cells.begin(), cells.end());
     }
-    if (data.best_constant)
-    {
-        rows.push_back({"best constant", "", "", "", "", ""});
+    if (data.best_constant) {
+        rows.push_back({ "best constant", "", "", "", "", "" });
         const row cells = error_cells(data.best_constant);
         rows.back().insert(rows.back().end(), cells.begin(), cells.end());
     }
@@ -63,9 +58,9 @@ std::vector<row> run_table(const report_data& data)
 
 std::vector<row> agreement_table(const report_data& data)
 {
-    std::vector<row> rows{{"one", "other", "pixels", "differing", "largest difference"}};
+    std::vector<row> rows{ { "one", "other", "pixels", "differing", "largest difference" } };
     for (const report_agreement& a : data.agreements)
-        rows.push_back({a.a, a.b, std::to_string(a.pixels), std::to_string(a.differing), shortest(a.largest)});
+        rows.push_back({ a.a, a.b, std::to_string(a.pixels), std::to_string(a.differing), shortest(a.largest) });
     return rows;
 }
 
@@ -82,8 +77,7 @@ void append_text(std::string& out, const std::vector<row>& rows)
     for (const row& r : rows)
         for (std::size_t c = 0; c < r.size(); ++c)
             widths[c] = std::max(widths[c], width_of(r[c]));
-    for (const row& r : rows)
-    {
+    for (const row& r : rows) {
         std::string line;
         for (std::size_t c = 0; c < r.size(); ++c)
             line += r[c] + std::string(widths[c] - width_of(r[c]) + 2, ' ');
@@ -95,8 +89,7 @@ void append_text(std::string& out, const std::vector<row>& rows)
 void append_html(std::string& out, const std::vector<row>& rows)
 {
     out += "<div class=\"wide\"><table>\n";
-    for (std::size_t r = 0; r < rows.size(); ++r)
-    {
+    for (std::size_t r = 0; r < rows.size(); ++r) {
         out += "<tr>";
         const std::string cell = r == 0 ? "th" : "td";
         for (const std::string& text : rows[r])
@@ -179,14 +172,24 @@ std::string escape_html(const std::string& text)
 {
     std::string html;
     for (const char c : text)
-        switch (c)
-        {
-        case '&': html += "&amp;"; break;
-        case '<': html += "&lt;"; break;
-        case '>': html += "&gt;"; break;
-        case '"': html += "&quot;"; break;
-        case '\'': html += "&#39;"; break;
-        default: html += c;
+        switch (c) {
+        case '&':
+            html += "&amp;";
+            break;
+        case '<':
+            html += "&lt;";
+            break;
+        case '>':
+            html += "&gt;";
+            break;
+        case '"':
+            html += "&quot;";
+            break;
+        case '\'':
+            html += "&#39;";
+            break;
+        default:
+            html += c;
         }
     return html;
 }
@@ -196,10 +199,10 @@ std::string to_base64(const std::string& bytes)
     constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string text;
     text.reserve((bytes.size() + 2) / 3 * 4);
-    const auto byte = [&](std::size_t i) -> std::uint32_t
-    { return i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0u; };
-    for (std::size_t i = 0; i < bytes.size(); i += 3)
-    {
+    const auto byte = [&](std::size_t i) -> std::uint32_t {
+        return i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0u;
+    };
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
         const std::uint32_t group = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
         text += digits[group >> 18 & 63u];
         text += digits[group >> 12 & 63u];
@@ -219,8 +222,7 @@ std::string make_report(const report_data& data)
         out += "<tr><th>" + escape_html(name) + "</th><td>" + escape_html(value) + "</td></tr>\n";
     out += "</table>\n<h2>Runs</h2>\n";
     append_html(out, run_table(data));
-    if (!data.agreements.empty())
-    {
+    if (!data.agreements.empty()) {
         out += "<h2>Agreement in bits</h2>\n";
         append_html(out, agreement_table(data));
     }
@@ -234,8 +236,7 @@ std::string make_table(const report_data& data)
 {
     std::string out;
     append_text(out, run_table(data));
-    if (!data.agreements.empty())
-    {
+    if (!data.agreements.empty()) {
         out += '\n';
         append_text(out, agreement_table(data));
     }

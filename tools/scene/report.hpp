@@ -6,24 +6,20 @@
 #include <utility>
 #include <vector>
 
-namespace ao::tools
-{
+namespace ao::tools {
 
-struct report_pass
-{
+struct report_pass {
     std::string name;
     double ms = 0.0;
 };
 
-struct report_error
-{
+struct report_error {
     double rmse = 0.0;
     double bias = 0.0;
     double p99 = 0.0;
 };
 
-struct report_run
-{
+struct report_run {
     std::string backend;
     std::string device;
     std::string route;
@@ -33,8 +29,7 @@ struct report_run
     std::optional<report_error> error; // absent without a reference
 };
 
-struct report_agreement
-{
+struct report_agreement {
     std::string a;
     std::string b;
     std::size_t pixels = 0;
@@ -42,14 +37,12 @@ struct report_agreement
     double largest = 0.0;
 };
 
-struct report_picture
-{
+struct report_picture {
     std::string name;
     std::string png; // the file's bytes
 };
 
-struct report_data
-{
+struct report_data {
     std::string title;
     std::vector<std::pair<std::string, std::string>> facts; // scene, size, camera, settings, in this order
     std::vector<report_run> runs;

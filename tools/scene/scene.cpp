@@ -7,10 +7,8 @@
 
 #include <cmath>
 
-namespace ao::tools
-{
-namespace
-{
+namespace ao::tools {
+namespace {
 
 bool finite(const glm::vec3& v)
 {
@@ -27,8 +25,7 @@ void check(const scene& s)
         s.material.size() != s.triangles.size())
         throw error(s.name + ": arrays of different lengths");
 
-    for (std::size_t i = 0; i < s.positions.size(); ++i)
-    {
+    for (std::size_t i = 0; i < s.positions.size(); ++i) {
         const std::string vertex = s.name + ": vertex " + std::to_string(i);
         if (!finite(s.positions[i]))
             throw error(vertex + ": position is not finite");
@@ -40,8 +37,7 @@ void check(const scene& s)
         if (std::abs(glm::length(s.normals[i]) - 1.0f) > 1.0e-3f)
             throw error(vertex + ": normal is not of unit length");
     }
-    for (std::size_t t = 0; t < s.triangles.size(); ++t)
-    {
+    for (std::size_t t = 0; t < s.triangles.size(); ++t) {
         const std::string triangle = s.name + ": triangle " + std::to_string(t);
         for (int corner = 0; corner < 3; ++corner)
             if (s.triangles[t][corner] >= s.positions.size())
@@ -55,10 +51,9 @@ void check(const scene& s)
 bounds bounds_of(const scene& s)
 {
     const glm::vec3 first = s.positions[s.triangles.front().x];
-    bounds b{first, first};
+    bounds b{ first, first };
     for (const glm::uvec3& t : s.triangles)
-        for (int corner = 0; corner < 3; ++corner)
-        {
+        for (int corner = 0; corner < 3; ++corner) {
             b.low = glm::min(b.low, s.positions[t[corner]]);
             b.high = glm::max(b.high, s.positions[t[corner]]);
         }

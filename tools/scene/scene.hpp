@@ -7,18 +7,15 @@
 #include <string>
 #include <vector>
 
-namespace ao::tools
-{
+namespace ao::tools {
 
-struct bounds
-{
+struct bounds {
     glm::vec3 low;
     glm::vec3 high;
 };
 
 // Indexed triangles in world space, right-handed, in the model's own unit of length. Both sides of a triangle are surface.
-struct scene
-{
+struct scene {
     std::string name;
 
     std::vector<glm::vec3> positions;

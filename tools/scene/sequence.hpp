@@ -2,8 +2,7 @@
 
 #include <cstdint>
 
-namespace ao::tools
-{
+namespace ao::tools {
 
 // 32 bits well mixed (the finaliser of MurmurHash3).
 [[nodiscard]] constexpr std::uint32_t mix_bits(std::uint32_t x)

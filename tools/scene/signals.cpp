@@ -6,12 +6,10 @@
 #include <cstdio>
 #include <utility>
 
-namespace ao::tools
-{
-namespace
-{
+namespace ao::tools {
+namespace {
 
-std::atomic<bool> flag{false};
+std::atomic<bool> flag{ false };
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may not take locks");
 
 extern "C" void on_interrupt(int)
@@ -48,8 +46,7 @@ std::string progress_line::text(const std::string& what, double share, double se
 {
     const int percent = static_cast<int>(std::clamp(share, 0.0, 1.0) * 100.0);
     std::string line = what + "  " + std::to_string(percent) + " %";
-    if (percent > 0)
-    {
+    if (percent > 0) {
         const auto left = std::lround(seconds_so_far * (1.0 - share) / share);
         const auto seconds = std::to_string(left % 60);
         line += ", " + std::to_string(left / 60) + ":" + (seconds.size() < 2 ? "0" : "") + seconds + " left";

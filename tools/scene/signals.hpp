@@ -5,8 +5,7 @@
 #include <mutex>
 #include <string>
 
-namespace ao::tools
-{
+namespace ao::tools {
 
 // From here on the first Ctrl-C (or SIGTERM) only sets the flag, and long work ends at its next look; the second one
 // ends the process at once.
@@ -14,8 +13,7 @@ void catch_interrupts();
 [[nodiscard]] const std::atomic<bool>& interrupted();
 
 // One line on stderr, rewritten in place: what is done, per cent, time left. Silent unless asked for.
-class progress_line
-{
+class progress_line {
 public:
     progress_line(std::string what, bool wanted);
     progress_line(const progress_line&) = delete;
