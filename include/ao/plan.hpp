@@ -176,7 +176,9 @@ constexpr std::optional<error> validate(const facts& f)
 
 // Relative rounding of what linearize reads or the host stores, and of the depth buffer's own steps: what an error-free
 // surface may seem to stand in front of itself (numerics.md 4.4), twice: for the pixel and for the tap.
+// As eye depth: constant + d * (linear + d * quadratic).
 struct depth_error {
+    float constant = 0; // scene units
     float linear = 0;
     float quadratic = 0;
 };
@@ -194,8 +196,8 @@ constexpr depth_error storage_error(const facts& f, const projection_constants& 
         const float step = f.depth_format == pixel_format::d24 ? 2 * rounding : rounding;
         const float terms = step * magnitude(folded.decode.scale) + rounding * magnitude(folded.decode.offset);
         if (folded.parallel) {
+            e.constant = terms;
             e.linear += 2 * rounding;
-            e.quadratic = 0;
         }
         else if (f.depth_format == pixel_format::d24 || folded.decode.offset != 0) {
             e.quadratic = terms / magnitude(folded.decode.numerator);
@@ -242,7 +244,7 @@ constexpr std::optional<error> update(plan& p, const camera& view)
                                  turn[2][1], 0,          turn[0][2], turn[1][2], turn[2][2], 0 };
             const detail::depth_error e = detail::storage_error(f, *folded);
             c.radius = p.settings.radius;
-            c.bias = p.settings.bias;
+            c.bias = p.settings.bias + e.constant;
             c.bias_linear = e.linear;
             c.bias_quadratic = e.quadratic;
             c.thickness = p.settings.thickness * p.settings.radius;

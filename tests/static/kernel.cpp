@@ -44,16 +44,19 @@ constexpr bool same(const glm::vec4& a, const glm::vec4& b)
 {
     return a.x == b.x && a.y == b.y && a.z == b.z;
 }
-// The seed matters to the random kernels and to them only; more taps continue the sequence.
+// The seed matters to the random kernels and to them only; more taps continue the Halton sequence.
 static_assert(!same(ao::make_kernel(ao::kernel_type::box, 1, 1)[0], ao::make_kernel(ao::kernel_type::box, 1, 2)[0]));
 static_assert(!same(ao::make_kernel(ao::kernel_type::hemisphere, 1, 1)[0], ao::make_kernel(ao::kernel_type::hemisphere, 1, 2)[0]));
 static_assert(same(ao::make_kernel(ao::kernel_type::halton, 1, 1)[0], ao::make_kernel(ao::kernel_type::halton, 1, 2)[0]));
-static_assert(same(ao::make_kernel(ao::kernel_type::hemisphere, 4, 1)[3], ao::make_kernel(ao::kernel_type::hemisphere, 5, 1)[3]));
+static_assert(same(ao::make_kernel(ao::kernel_type::halton, 4, 1)[3], ao::make_kernel(ao::kernel_type::halton, 5, 1)[3]));
 
 // The edges of the unit cube.
 static_assert(ao::cosine_linear_offset(0, 0, 0).z == 0.0F);
 static_assert(near(ao::cosine_linear_offset(0.3, 1, 1).z, 1.0F, 1e-7F));
 static_assert(ao::cosine_linear_offset(0.9, 0.999, 0).z == 0.0F);
+
+static_assert(ao::half_ball_offset(0.4, 0.5, 0).z == 0.0F && near(ao::half_ball_offset(0.4, 0.125, 1).z, 0.5F, 1e-7F));
+static_assert(near(ao::detail::cube_root(0.001), 0.1, 1e-15) && ao::detail::cube_root(1.0) == 1.0 && ao::detail::cube_root(0.0) == 0.0);
 
 static_assert(near(static_cast<float>(ao::detail::sine(1.0)), 0.8414709848F, 1e-7F) &&
               near(static_cast<float>(ao::detail::cosine(1.0)), 0.5403023059F, 1e-7F));

@@ -90,7 +90,11 @@ constexpr bool flows(const ao::plan& p)
     return p.passes[p.passes.size() - 1].output == visibility;
 }
 
-constexpr ao::settings unfiltered = with([](auto& s) { s.filter = 1; });
+constexpr float inf = std::numeric_limits<float>::infinity();
+constexpr ao::settings unfiltered = with([](auto& s) {
+    s.filter = 1;
+    s.thickness = inf;
+});
 
 constexpr ao::plan least = planned(unfiltered, scene());
 static_assert(runs(least, { occlusion }) && least.transients.empty() && flows(least));
@@ -161,7 +165,8 @@ static_assert(ao::same_structure(filtered, changed(with([](auto& s) { s.bias = 9
 static_assert(!ao::same_structure(filtered, changed(with([](auto& s) { s.taps = 9; }))));
 static_assert(!ao::same_structure(filtered, changed(with([](auto& s) { s.filter = 9; }))));
 static_assert(!ao::same_structure(filtered, changed(with([](auto& s) { s.seed = 9; }))));
-static_assert(!ao::same_structure(filtered, changed(with([](auto& s) { s.thickness = 9; }))));
+static_assert(ao::same_structure(filtered, changed(with([](auto& s) { s.thickness = 9; }))));
+static_assert(!ao::same_structure(filtered, changed(with([](auto& s) { s.thickness = inf; }))));
 static_assert(!ao::same_structure(filtered, changed(with([](auto& s) { s.kernel = ao::kernel_type::box; }))));
 static_assert(!ao::same_structure(filtered, from_hardware));
 

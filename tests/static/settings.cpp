@@ -1,6 +1,7 @@
 // Settings that validate at compile time.
 #include "ao/settings.hpp"
 
+#include <limits>
 #include <string_view>
 
 namespace {
