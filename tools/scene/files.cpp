@@ -109,6 +109,20 @@ void write_file(const fs::path& path, std::string_view bytes)
     }
 }
 
+void check_writable(const fs::path& path)
+{
+    std::error_code failure;
+    const fs::file_status status = fs::status(path, failure);
+    if (status.type() == fs::file_type::directory)
+        fail(path, EISDIR);
+    const bool in_place = fs::exists(status) && !fs::is_regular_file(status);
+    const fs::path needed = in_place ? path : fs::absolute(path).parent_path();
+    if (::access(needed.c_str(), in_place ? W_OK : W_OK | X_OK) != 0)
+        fail(path, errno);
+    if (!in_place && !fs::is_directory(needed, failure))
+        fail(path, ENOTDIR);
+}
+
 void make_directory(const fs::path& path)
 {
     std::error_code failure;

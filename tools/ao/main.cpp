@@ -1,0 +1,44 @@
+#include "ao/options.hpp"
+#include "ao/render.hpp"
+#include "scene/error.hpp"
+#include "scene/signals.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <exception>
+#include <new>
+
+namespace {
+
+int fail(const std::string& reason)
+{
+    std::fprintf(stderr, "ao: %s\n", ao::tools::one_line(reason).c_str());
+    return 1;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+try {
+    CLI::App app("Ambient occlusion of a scene, on CPU, OpenGL and Vulkan");
+    app.require_subcommand(1);
+    ao::tools::render_arguments arguments;
+    CLI::App& render = *app.add_subcommand("render", "Render a scene's ambient occlusion and compare the backends");
+    ao::tools::add_render_options(render, arguments);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        return e.get_exit_code() == 0 ? app.exit(e) : fail(e.what());
+    }
+    arguments.has_yaw = render.count("--yaw") > 0;
+    arguments.has_pitch = render.count("--pitch") > 0;
+    arguments.has_fov = render.count("--fov") > 0;
+    ao::tools::catch_interrupts();
+    ao::tools::render(ao::tools::check_arguments(arguments));
+    return 0;
+} catch (const std::bad_alloc&) {
+    return fail("out of memory");
+} catch (const std::exception& e) {
+    return fail(e.what());
+}

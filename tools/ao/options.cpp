@@ -1,0 +1,251 @@
+#include "ao/options.hpp"
+
+#include "scene/error.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace ao::tools {
+namespace {
+
+std::vector<std::string> split(const std::string& text, char at)
+{
+    std::vector<std::string> parts(1);
+    for (const char c : text) {
+        if (c == at)
+            parts.emplace_back();
+        else
+            parts.back() += c;
+    }
+    return parts;
+}
+
+template <class Value, std::size_t N>
+Value choose(const char* option, const std::string& word, const std::array<std::pair<std::string_view, Value>, N>& choices)
+{
+    std::string all;
+    for (const auto& [name, value] : choices) {
+        if (name == word)
+            return value;
+        if (!all.empty())
+            all += '|';
+        all += name;
+    }
+    throw error(std::string(option) + ": '" + one_line(word) + "' is none of " + all);
+}
+
+template <class Number>
+Number number(const char* option, const std::string& text)
+{
+    Number value{};
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (code != std::errc() || end != text.data() + text.size())
+        throw error(std::string(option) + ": '" + one_line(text) + "' is not a number in range");
+    return value;
+}
+
+float finite(const char* option, double value, double limit)
+{
+    if (!(std::abs(value) <= limit))
+        throw error(std::string(option) + ": must be a finite number, at most " + std::to_string(static_cast<long long>(limit)));
+    return static_cast<float>(value);
+}
+
+extent parse_size(const std::string& text)
+{
+    const std::vector<std::string> parts = split(text, 'x');
+    if (parts.size() != 2)
+        throw error("--size: '" + one_line(text) + "' is not WIDTHxHEIGHT");
+    const extent size{ number<int>("--size", parts[0]), number<int>("--size", parts[1]) };
+    constexpr int side = 16384;
+    constexpr long long pixels = 1LL << 25;
+    if (size.width < 1 || size.height < 1 || size.width > side || size.height > side ||
+        static_cast<long long>(size.width) * size.height > pixels)
+        throw error("--size: 1 to 16384 pixels a side, at most 33554432 in all");
+    return size;
+}
+
+glm::vec3 parse_eye(const std::string& text)
+{
+    const std::vector<std::string> parts = split(text, ',');
+    if (parts.size() != 3)
+        throw error("--eye: '" + one_line(text) + "' is not X,Y,Z");
+    glm::vec3 eye{ 0.0f };
+    for (int i = 0; i < 3; ++i)
+        eye[i] = finite("--eye", number<double>("--eye", parts[static_cast<std::size_t>(i)]), 1e15);
+    return eye;
+}
+
+projection_choice parse_projection(const std::string& text)
+{
+    // Pictures are kept with row 0 on top, which NDC y = +1 shows unless y points down.
+    projection_choice p;
+    for (const std::string& word : split(text, ',')) {
+        if (word == "perspective")
+            p.options.parallel = false;
+        else if (word == "parallel" || word == "orthographic")
+            p.options.parallel = true;
+        else if (word == "zero-to-one")
+            p.options.range = ao::depth_range::zero_to_one;
+        else if (word == "minus-one-to-one")
+            p.options.range = ao::depth_range::minus_one_to_one;
+        else if (word == "reversed")
+            p.options.reversed = true;
+        else if (word == "infinite")
+            p.infinite = true;
+        else if (word == "y-down")
+            p.options.y_down = true;
+        else
+            throw error("--projection: '" + one_line(word) +
+                        "' is none of perspective|parallel|zero-to-one|minus-one-to-one|reversed|infinite|y-down");
+    }
+    p.options.rows = p.options.y_down ? first_row::at_ndc_minus_one : first_row::at_ndc_plus_one;
+    if (p.infinite && p.options.parallel)
+        throw error("--projection: a parallel projection has no infinite far plane");
+    return p;
+}
+
+void parse_inputs(const render_arguments& a, facts& f)
+{
+    using depth = std::pair<depth_source, pixel_format>;
+    static constexpr std::array<std::pair<std::string_view, depth>, 5> depths{ {
+        { "linear", { depth_source::linear, pixel_format::r32f } },
+        { "d32f", { depth_source::hardware, pixel_format::d32f } },
+        { "d24", { depth_source::hardware, pixel_format::d24 } },
+        { "position16", { depth_source::position, pixel_format::rgba16f } },
+        { "position32", { depth_source::position, pixel_format::rgba32f } },
+    } };
+    using normals = std::pair<normal_source, pixel_format>;
+    static constexpr std::array<std::pair<std::string_view, normals>, 4> normal_formats{ {
+        { "rgba16f", { normal_source::vector, pixel_format::rgba16f } },
+        { "rgb10a2", { normal_source::unorm10, pixel_format::rgb10a2 } },
+        { "octahedral", { normal_source::octahedral, pixel_format::rg16 } },
+        { "none", { normal_source::from_depth, pixel_format::rgba16f } },
+    } };
+    std::tie(f.depth, f.depth_format) = choose("--depth", a.depth, depths);
+    std::tie(f.normals, f.normal_format) = choose("--normals", a.normals, normal_formats);
+}
+
+ao::settings parse_settings(const render_arguments& a)
+{
+    static constexpr std::array<std::pair<std::string_view, kernel_type>, 3> kernels{ {
+        { "box", kernel_type::box },
+        { "hemisphere", kernel_type::hemisphere },
+        { "halton", kernel_type::halton },
+    } };
+    ao::settings s;
+    s.kernel = choose("--kernel", a.kernel, kernels);
+    s.taps = a.taps;
+    s.radius = static_cast<float>(a.radius);
+    s.bias = static_cast<float>(a.bias);
+    s.filter = a.filter;
+    if (a.thickness == "infinite")
+        s.thickness = std::numeric_limits<float>::infinity();
+    else if (!a.thickness.empty())
+        s.thickness = number<float>("--thickness", a.thickness);
+    if (a.seed < 0 || a.seed > 0xffffffffLL)
+        throw error("--seed: 0 to 4294967295");
+    s.seed = static_cast<std::uint32_t>(a.seed);
+    if (const auto wrong = validate(s))
+        throw error(std::string(wrong->reason()));
+    return s;
+}
+
+} // namespace
+
+void add_render_options(CLI::App& command, render_arguments& a)
+{
+    command.add_option("SCENE", a.scene, "a model that Assimp reads, or 'courtyard'")->required();
+    command.add_option("--backend", a.backend, "cpu|gl|vk|all, or several with commas");
+    command.add_option("--device", a.device, "part of the GL or Vulkan device's name; without it llvmpipe and lavapipe");
+    command.add_option("--route", a.route, "of gl: compute|fragment|all");
+    command.add_option("--lanes", a.lanes, "of cpu: auto|scalar|4|8|16");
+    command.add_option("--kernel", a.kernel, "box|hemisphere|halton");
+    command.add_option("--taps", a.taps, "per pixel, 1 to 1024");
+    command.add_option("--radius", a.radius, "scene units");
+    command.add_option("--bias", a.bias, "scene units");
+    command.add_option("--thickness", a.thickness, "in radii, or 'infinite'");
+    command.add_option("--filter", a.filter, "pixels a side, odd, 1 to 31");
+    command.add_option("--depth", a.depth, "input: linear|d32f|d24|position16|position32");
+    command.add_option("--normals", a.normals, "input: rgba16f|rgb10a2|octahedral|none");
+    command.add_option("--size", a.size, "WIDTHxHEIGHT");
+    command.add_option("--eye", a.eye, "X,Y,Z in scene units; without it the whole scene is in view");
+    command.add_option("--yaw", a.yaw, "degrees; 0 looks along -z, 90 along +x");
+    command.add_option("--pitch", a.pitch, "degrees, -90 to 90");
+    command.add_option("--fov", a.fov, "vertical, degrees");
+    command.add_option("--projection", a.projection,
+                       "words with commas: perspective|parallel, zero-to-one|minus-one-to-one, reversed, infinite, y-down");
+    command.add_option("--seed", a.seed, "of the random kernels and rotations");
+    command.add_option("--reference", a.reference, "rays per pixel of the ray-traced truth, even; 0: none");
+    command.add_option("--frames", a.frames, "timed after warm-up; times are their medians");
+    command.add_option("--out", a.out, "directory for pictures and report.html");
+    command.add_option("--json", a.json, "file for the numbers");
+    command.add_flag("--progress", a.progress, "share done and time left on stderr");
+}
+
+render_options check_arguments(const render_arguments& a)
+{
+    render_options o;
+    o.scene = a.scene;
+    o.cpu = o.gl = o.vk = false;
+    for (const std::string& word : split(a.backend, ',')) {
+        static constexpr std::array<std::pair<std::string_view, int>, 4> backends{
+            { { "cpu", 1 }, { "gl", 2 }, { "vk", 4 }, { "all", 7 } }
+        };
+        const int chosen = choose("--backend", word, backends);
+        o.cpu = o.cpu || (chosen & 1) != 0;
+        o.gl = o.gl || (chosen & 2) != 0;
+        o.vk = o.vk || (chosen & 4) != 0;
+    }
+    static constexpr std::array<std::pair<std::string_view, int>, 3> routes{
+        { { "compute", 1 }, { "fragment", 2 }, { "all", 3 } }
+    };
+    const int route = choose("--route", a.route, routes);
+    o.gl_compute = (route & 1) != 0;
+    o.gl_fragment = (route & 2) != 0;
+    static constexpr std::array<std::pair<std::string_view, int>, 5> widths{
+        { { "auto", 0 }, { "scalar", 1 }, { "4", 4 }, { "8", 8 }, { "16", 16 } }
+    };
+    o.lanes = choose("--lanes", a.lanes, widths);
+    o.device = a.device;
+    o.settings = parse_settings(a);
+    o.size = parse_size(a.size);
+    o.projection = parse_projection(a.projection);
+    parse_inputs(a, o.inputs);
+    o.inputs.width = o.size.width;
+    o.inputs.height = o.size.height;
+    o.inputs.parallel = o.projection.options.parallel;
+
+    if (!a.eye.empty())
+        o.eye = parse_eye(a.eye);
+    else if (a.has_yaw || a.has_pitch)
+        throw error("--yaw and --pitch need --eye");
+    o.yaw = finite("--yaw", a.yaw, 1e6);
+    if (!(a.pitch >= -90.0 && a.pitch <= 90.0))
+        throw error("--pitch: -90 to 90 degrees");
+    o.pitch = static_cast<float>(a.pitch);
+    if (a.has_fov) {
+        if (!(a.fov >= 0.1 && a.fov <= 179.0))
+            throw error("--fov: 0.1 to 179 degrees");
+        o.fov = static_cast<float>(a.fov);
+    }
+    if (a.reference < 0 || a.reference > 65536 || a.reference % 2 != 0)
+        throw error("--reference: even, 0 to 65536");
+    o.reference = static_cast<unsigned>(a.reference);
+    if (a.frames < 1 || a.frames > 100000)
+        throw error("--frames: 1 to 100000");
+    o.frames = a.frames;
+    o.out = a.out;
+    o.json = a.json;
+    o.progress = a.progress;
+    return o;
+}
+
+} // namespace ao::tools

@@ -1,0 +1,62 @@
+#pragma once
+
+#include "ao/plan.hpp"
+#include "scene/camera.hpp"
+#include "scene/images.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace ao::tools {
+
+// Words of --projection, separated by commas.
+struct projection_choice {
+    projection_options options;
+    bool infinite = false; // far plane
+};
+
+// What `ao render` was asked for, each value already known to make sense by itself.
+struct render_options {
+    std::string scene; // a path, or the name of the bundled scene
+    bool cpu = true;
+    bool gl = true;
+    bool vk = true;
+    bool gl_compute = true;
+    bool gl_fragment = true;
+    std::string device; // part of a name; empty: the software drivers
+    int lanes = 0;      // of the cpu backend: 0 the widest, 1 scalar, 4, 8, 16
+    ao::settings settings;
+    facts inputs; // parallel set from the projection
+    extent size{ 1280, 720 };
+    std::optional<glm::vec3> eye;
+    float yaw = 0;
+    float pitch = 0;
+    std::optional<float> fov;
+    projection_choice projection;
+    unsigned reference = 0; // rays per pixel, 0: none
+    int frames = 5;
+    std::filesystem::path out;  // empty: no files
+    std::filesystem::path json; // empty: none
+    bool progress = false;
+};
+
+// Adds the subcommand's options; `read` is what they are parsed into.
+struct render_arguments {
+    std::string scene, backend = "all", device, route = "all", lanes = "auto", kernel = "hemisphere", depth = "linear";
+    std::string normals = "rgba16f", size = "1280x720", eye, projection = "perspective", out, json, thickness;
+    int taps = 32, filter = 5, frames = 5;
+    long long seed = 1, reference = 0;
+    double radius = 1.0, bias = 0.02, yaw = 0.0, pitch = 0.0, fov = 0.0;
+    bool has_yaw = false, has_pitch = false, has_fov = false, progress = false;
+};
+void add_render_options(CLI::App& command, render_arguments& read);
+
+// Throws `error` naming the option at fault.
+[[nodiscard]] render_options check_arguments(const render_arguments& a);
+
+} // namespace ao::tools
