@@ -11,8 +11,9 @@ enum class pixel_format {
     rgb10a2, // unsigned normalised
     rg16,    // unsigned normalised
     d32f,
-    d24, // unsigned normalised, in the low 24 bits of 32
-    r8,  // unsigned normalised
+    d24,    // unsigned normalised, in the low 24 bits of 32
+    r8,     // unsigned normalised
+    rg32ui, // unsigned integers
 };
 
 // Bytes per pixel in memory, rows tightly packed.
@@ -23,6 +24,7 @@ constexpr int bytes_per_pixel(pixel_format format)
         return 16;
     case pixel_format::rg32f:
     case pixel_format::rgba16f:
+    case pixel_format::rg32ui:
         return 8;
     case pixel_format::r8:
         return 1;

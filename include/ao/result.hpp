@@ -14,6 +14,7 @@ enum class errc {
     invalid_projection,
     unsupported_format,
     invalid_size,
+    invalid_scene,
     plan_mismatch, // a plan other than the one a program was prepared for
     device,        // the API refused; error::native holds its code
     out_of_memory,

@@ -35,6 +35,8 @@ layout layout_of(pixel_format format)
         return { GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT };
     case pixel_format::d24:
         return { GL_DEPTH24_STENCIL8, GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8 };
+    case pixel_format::rg32ui:
+        return { GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT };
     }
     return { 0, 0, 0 };
 }

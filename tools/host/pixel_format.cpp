@@ -27,6 +27,8 @@ const char* name(pixel_format format)
         return "d32f";
     case pixel_format::d24:
         return "d24";
+    case pixel_format::rg32ui:
+        return "rg32ui";
     }
     return "unknown";
 }

@@ -25,6 +25,8 @@ VkFormat vulkan_format(pixel_format format)
         return VK_FORMAT_D32_SFLOAT;
     case pixel_format::d24:
         return VK_FORMAT_X8_D24_UNORM_PACK32;
+    case pixel_format::rg32ui:
+        return VK_FORMAT_R32G32_UINT;
     }
     return VK_FORMAT_UNDEFINED;
 }

@@ -70,6 +70,8 @@ constexpr GLenum internal_format(pixel_format format)
         return GL_DEPTH_COMPONENT24;
     case pixel_format::r8:
         return GL_R8;
+    case pixel_format::rg32ui:
+        return GL_RG32UI;
     }
     return GL_NONE;
 }

@@ -63,6 +63,8 @@ VkFormat native_format(pixel_format format)
         return VK_FORMAT_X8_D24_UNORM_PACK32;
     case pixel_format::r8:
         return VK_FORMAT_R8_UNORM;
+    case pixel_format::rg32ui:
+        return VK_FORMAT_R32G32_UINT;
     }
     return VK_FORMAT_UNDEFINED;
 }

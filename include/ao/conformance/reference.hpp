@@ -74,6 +74,8 @@ glm::vec<4, Real> decode_texel(const picture& p, std::size_t i)
         return texel(ratio(p.texel<std::uint32_t>(i) & 0xffffffU, 0xffffff), Real(0), Real(0), Real(0));
     case pixel_format::r8:
         return texel(ratio(static_cast<std::uint32_t>(p.texel<std::uint8_t>(i)), 255), Real(0), Real(0), Real(0));
+    case pixel_format::rg32ui:
+        break; // read as integers, not here
     }
     return texel(Real(0));
 }

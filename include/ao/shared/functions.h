@@ -6,4 +6,5 @@
 #include "ao/shared/encoding.h"
 #include "ao/shared/projection.h"
 #include "ao/shared/tile.h"
+#include "ao/shared/geometry.h"
 // clang-format on
