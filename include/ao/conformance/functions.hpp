@@ -283,6 +283,22 @@ inline function_inputs make_inputs(const function_info& f, std::size_t random_co
         in.a.emplace_back(65535.0F, 65535.0F, 0.0F, 0.0F);
         in.b.emplace_back(0.0F);
         break;
+    case domain::unorms:
+        // About the middle between codes, where rounding changes its mind.
+        for (const float top : { 1023.0F, 65535.0F }) {
+            for (const float code : { 0.0F, 1.0F, 2.0F, 5.0F, 31.0F, 511.0F, 1022.0F }) {
+                const float middle = (code + 0.5F) / top;
+                float below = middle;
+                float above = middle;
+                for (int i = 0; i < 8; ++i) {
+                    below = std::nextafter(below, 0.0F);
+                    above = std::nextafter(above, 1.0F);
+                    in.a.emplace_back(below, middle, above, 0.0F);
+                    in.b.emplace_back(top, 0.0F, 0.0F, 0.0F);
+                }
+            }
+        }
+        break;
     default:
         for (const float x : { 0.0F, 1.0F, 0.5F }) {
             in.a.emplace_back(f.inputs == domain::codes ? 2 * std::floor(511.5F * x) : x, f.inputs == domain::squares ? -1.0F : x,
