@@ -6,6 +6,7 @@
 
 #include "ao/real.hpp"
 
+#include <concepts>
 #include <cstdint>
 #include <type_traits>
 
@@ -23,26 +24,74 @@ struct native_vector {
 
 } // namespace detail
 
-// N verdicts; a lane holds 0 or all bits set.
+// What N lanes of a Tag are made of. This default needs nothing but the compiler's vector extensions; a backend specialises it
+// for a Tag of its own to name the instructions of one instruction set. Every specialisation must give the same bits.
+template <int N, class Tag>
+struct lane_instructions {
+    using floats = typename detail::native_vector<float, N>::type;
+    using mask_bits = typename detail::native_vector<std::int32_t, N>::type; // a lane holds 0 or all bits set
+
+    static constexpr mask_bits all(bool b) { return mask_bits{} - (b ? 1 : 0); }
+    static constexpr bool test(mask_bits m, int i) { return m[i] != 0; }
+    static constexpr mask_bits both(mask_bits a, mask_bits b) { return a & b; }
+    static constexpr mask_bits either(mask_bits a, mask_bits b) { return a | b; }
+    static constexpr mask_bits inverse(mask_bits a) { return ~a; }
+    template <class Vector>
+    static constexpr mask_bits less(Vector a, Vector b)
+    {
+        return a < b;
+    }
+    template <class Vector>
+    static constexpr mask_bits less_equal(Vector a, Vector b)
+    {
+        return a <= b;
+    }
+    template <class Vector>
+    static constexpr mask_bits equal(Vector a, Vector b)
+    {
+        return a == b;
+    }
+    // b where m holds, a elsewhere.
+    template <class Vector>
+    static constexpr Vector select(Vector a, Vector b, mask_bits m)
+    {
+        return m ? b : a;
+    }
+    static floats sqrt(floats x)
+    {
+        floats root = x;
+        for (int i = 0; i < N; ++i) {
+            root[i] = __builtin_sqrtf(x[i]);
+        }
+        return root;
+    }
+};
+
+// N verdicts.
 template <int N, class Tag = void>
 struct lane_mask {
-    using native = typename detail::native_vector<std::int32_t, N>::type;
+    using instructions = lane_instructions<N, Tag>;
+    using native = typename instructions::mask_bits;
     native bits;
 
     lane_mask() = default;
     constexpr explicit lane_mask(native b) : bits(b) {}
-    constexpr lane_mask(bool b) : bits(native{} - (b ? 1 : 0)) {}
-    constexpr bool operator[](int i) const { return bits[i] != 0; }
+    template <std::same_as<bool> Bool>
+    constexpr lane_mask(Bool b) : bits(instructions::all(b))
+    {
+    }
+    constexpr bool operator[](int i) const { return instructions::test(bits, i); }
 
-    friend constexpr lane_mask operator&&(lane_mask a, lane_mask b) { return lane_mask(a.bits & b.bits); }
-    friend constexpr lane_mask operator||(lane_mask a, lane_mask b) { return lane_mask(a.bits | b.bits); }
-    friend constexpr lane_mask operator!(lane_mask a) { return lane_mask(~a.bits); }
+    friend constexpr lane_mask operator&&(lane_mask a, lane_mask b) { return lane_mask(instructions::both(a.bits, b.bits)); }
+    friend constexpr lane_mask operator||(lane_mask a, lane_mask b) { return lane_mask(instructions::either(a.bits, b.bits)); }
+    friend constexpr lane_mask operator!(lane_mask a) { return lane_mask(instructions::inverse(a.bits)); }
 };
 
 // N values of a 4-byte T: float, std::int32_t or std::uint32_t.
 template <class T, int N, class Tag>
 struct lanes {
     static_assert(sizeof(T) == 4);
+    using instructions = lane_instructions<N, Tag>;
     static constexpr int width = N;
     using native = typename detail::native_vector<T, N>::type;
     using mask = lane_mask<N, Tag>;
@@ -53,7 +102,7 @@ struct lanes {
     // Every lane the same. Implicit, as real(0.5) and mixed products in shared code expect.
     template <class S>
         requires std::is_arithmetic_v<S>
-    constexpr lanes(S x) : v(native{} + static_cast<T>(x))
+    constexpr lanes(S x) : v(static_cast<T>(x) - native{}) // less +0, which keeps the sign of -0
     {
     }
     // Lane-wise conversion; float to integer truncates.
@@ -67,28 +116,24 @@ struct lanes {
     friend constexpr lanes operator-(lanes a, lanes b) { return lanes(a.v - b.v); }
     friend constexpr lanes operator*(lanes a, lanes b) { return lanes(a.v * b.v); }
     friend constexpr lanes operator/(lanes a, lanes b) { return lanes(a.v / b.v); }
-    friend constexpr lanes operator&(lanes a, lanes b)
-        requires std::is_integral_v<T>
-    {
-        return lanes(a.v & b.v);
-    }
+    friend constexpr lanes operator&(lanes a, lanes b) requires std::is_integral_v<T> { return lanes(a.v & b.v); }
     friend constexpr lanes operator-(lanes a) { return lanes(-a.v); }
     constexpr lanes& operator+=(lanes b) { return *this = *this + b; }
     constexpr lanes& operator-=(lanes b) { return *this = *this - b; }
     constexpr lanes& operator*=(lanes b) { return *this = *this * b; }
     constexpr lanes& operator/=(lanes b) { return *this = *this / b; }
-    friend constexpr mask operator<(lanes a, lanes b) { return mask(a.v < b.v); }
-    friend constexpr mask operator<=(lanes a, lanes b) { return mask(a.v <= b.v); }
-    friend constexpr mask operator>(lanes a, lanes b) { return mask(a.v > b.v); }
-    friend constexpr mask operator>=(lanes a, lanes b) { return mask(a.v >= b.v); }
-    friend constexpr mask operator==(lanes a, lanes b) { return mask(a.v == b.v); }
-    friend constexpr mask operator!=(lanes a, lanes b) { return mask(a.v != b.v); }
+    friend constexpr mask operator<(lanes a, lanes b) { return mask(instructions::less(a.v, b.v)); }
+    friend constexpr mask operator<=(lanes a, lanes b) { return mask(instructions::less_equal(a.v, b.v)); }
+    friend constexpr mask operator>(lanes a, lanes b) { return mask(instructions::less(b.v, a.v)); }
+    friend constexpr mask operator>=(lanes a, lanes b) { return mask(instructions::less_equal(b.v, a.v)); }
+    friend constexpr mask operator==(lanes a, lanes b) { return mask(instructions::equal(a.v, b.v)); }
+    friend constexpr mask operator!=(lanes a, lanes b) { return !(a == b); }
 };
 
 template <class T, int N, class Tag>
 constexpr lanes<T, N, Tag> select(lanes<T, N, Tag> a, lanes<T, N, Tag> b, lane_mask<N, Tag> m)
 {
-    return lanes<T, N, Tag>(m.bits ? b.v : a.v);
+    return lanes<T, N, Tag>(lane_instructions<N, Tag>::select(a.v, b.v, m.bits));
 }
 
 template <int N, class Tag>
@@ -103,14 +148,7 @@ struct real_traits<lanes<float, N, Tag>> {
     {
         return ::ao::select(a, b, m);
     }
-    static real sqrt(real x)
-    {
-        real root = x;
-        for (int i = 0; i < N; ++i) {
-            root.v[i] = __builtin_sqrtf(x.v[i]);
-        }
-        return root;
-    }
+    static real sqrt(real x) { return real(lane_instructions<N, Tag>::sqrt(x.v)); }
     static real floor(real x)
     {
         // Whole numbers from 2^23 on are left as they are; below, truncation and one step down for negative fractions.

@@ -1,0 +1,125 @@
+// Memory for one pixel or N side by side. Every function is a template over a Real type that carries its translation unit's
+// Tag, or inlined without fail: nothing compiled here for a wide instruction set may be shared with other units.
+#pragma once
+
+#include "ao/half.hpp"
+#include "ao/lanes.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace ao::cpu::detail {
+
+// Instructions that lanes of a Tag use on memory. Specialised beside lane_instructions.
+template <int N, class Tag>
+struct memory_instructions {
+    using floats = typename ao::detail::native_vector<float, N>::type;
+    using words = typename ao::detail::native_vector<std::int32_t, N>::type;
+
+    // The words at data + 4 * index, index >= 0.
+    static words gather(const std::byte* data, words index)
+    {
+        words loaded{};
+        for (int i = 0; i < N; ++i) {
+            std::int32_t word = 0;
+            std::memcpy(&word, data + std::size_t{ 4 } * static_cast<std::uint32_t>(index[i]), 4);
+            loaded[i] = word;
+        }
+        return loaded;
+    }
+    static bool equal(words a, words b) { return std::memcmp(&a, &b, sizeof(words)) == 0; }
+    // From the low 16 bits of each word.
+    static floats half(words codes)
+    {
+        floats decoded{};
+        for (int i = 0; i < N; ++i) {
+            decoded[i] = half_to_float(static_cast<std::uint16_t>(codes[i]));
+        }
+        return decoded;
+    }
+};
+
+template <class Real>
+struct memory;
+
+template <>
+struct memory<float> {
+    static constexpr int width = 1;
+    using integer = std::int32_t;
+
+    static integer ascending(int first, int, int) { return first; }
+    static integer load(const std::byte* data, integer index) { return gather(data, index); }
+    static integer gather(const std::byte* data, integer index)
+    {
+        std::int32_t word = 0;
+        std::memcpy(&word, data + std::size_t{ 4 } * static_cast<std::uint32_t>(index), 4);
+        return word;
+    }
+    static float as_real(integer word) { return std::bit_cast<float>(word); }
+    static float half(integer code) { return half_to_float(static_cast<std::uint16_t>(code)); }
+    static integer shift_right(integer word, int bits) { return static_cast<integer>(static_cast<std::uint32_t>(word) >> bits); }
+    static void store(std::byte* target, float value, int) { std::memcpy(target, &value, 4); }
+    static void store_bytes(std::byte* target, integer value, int) { *target = static_cast<std::byte>(value); }
+};
+
+template <int N, class Tag>
+struct memory<lanes<float, N, Tag>> {
+    static constexpr int width = N;
+    using real = lanes<float, N, Tag>;
+    using integer = lanes<std::int32_t, N, Tag>;
+    using words = typename integer::native;
+    using instructions = memory_instructions<N, Tag>;
+
+    // first, first + step, ... in the first `count` lanes, and the last of these in the others.
+    static integer ascending(int first, int step, int count)
+    {
+        words lane{};
+        for (int i = 0; i < N; ++i) {
+            lane[i] = i;
+        }
+        const words last = words{} + (count - 1);
+        return integer((lane < last ? lane : last) * step + first);
+    }
+    // As gather, and quick where the words lie side by side.
+    static integer load(const std::byte* data, integer index)
+    {
+        const int first = index[0];
+        if (instructions::equal(index.v, ascending(first, 1, N).v)) {
+            words loaded;
+            std::memcpy(&loaded, data + std::size_t{ 4 } * static_cast<std::uint32_t>(first), sizeof(words));
+            return integer(loaded);
+        }
+        return gather(data, index);
+    }
+    // The words at data + 4 * index, index >= 0.
+    static integer gather(const std::byte* data, integer index) { return integer(instructions::gather(data, index.v)); }
+    static real as_real(integer word) { return real(reinterpret_cast<typename real::native>(word.v)); }
+    // From the low 16 bits of each word.
+    static real half(integer codes) { return real(instructions::half(codes.v)); }
+    static integer shift_right(integer word, int bits)
+    {
+        using unsigned_words = typename lanes<std::uint32_t, N, Tag>::native;
+        return integer(reinterpret_cast<words>(reinterpret_cast<unsigned_words>(word.v) >> static_cast<std::uint32_t>(bits)));
+    }
+    // The first `count` lanes.
+    static void store(std::byte* target, real value, int count)
+    {
+        if (count == N) {
+            std::memcpy(target, &value.v, sizeof(value.v));
+            return;
+        }
+        for (int i = 0; i < count; ++i) {
+            const float lane = value[i];
+            std::memcpy(target + 4 * i, &lane, 4);
+        }
+    }
+    static void store_bytes(std::byte* target, integer value, int count)
+    {
+        for (int i = 0; i < count; ++i) {
+            target[i] = static_cast<std::byte>(value[i]);
+        }
+    }
+};
+
+} // namespace ao::cpu::detail

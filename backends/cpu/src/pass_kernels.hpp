@@ -1,0 +1,143 @@
+// The pass bodies over the pixels of a tile.
+#pragma once
+
+#include "kernels.hpp"
+#include "resources.hpp"
+
+#include "ao/kernel.hpp"
+#include "ao/passes.hpp"
+
+#include <cstring>
+
+#if defined(__GNUC__)
+#define AO_CPU_KERNEL [[gnu::flatten]]
+#else
+#define AO_CPU_KERNEL
+#endif
+
+namespace ao::cpu::detail {
+
+template <class Real>
+struct pass_kernels {
+    using memory = detail::memory<Real>;
+    using integer = typename math<Real>::integer;
+    using ivec2 = typename math<Real>::ivec2;
+    using vec2 = typename math<Real>::vec2;
+
+    // A shared constants struct: reals only.
+    template <class Constants>
+    static Constants constants(const pass_arguments& a)
+    {
+        constexpr int count = sizeof(Constants) / sizeof(Real);
+        static_assert(count <= std::tuple_size_v<decltype(a.constants)>);
+        Real each[count];
+        for (int i = 0; i < count; ++i) {
+            each[i] = Real(a.constants.data()[i]);
+        }
+        Constants all;
+        std::memcpy(&all, each, sizeof(all));
+        return all;
+    }
+
+    // Calls body(pixel, target offset in pixels of the row, number of pixels) for each block. Lanes beyond the tile repeat the
+    // last pixel.
+    template <class Body>
+    static void for_blocks(const tile& t, Body body)
+    {
+        for (int y = t.top; y < t.bottom; ++y) {
+            for (int x = t.left; x < t.right; x += memory::width) {
+                const int left = t.right - x;
+                const int count = left < memory::width ? left : memory::width;
+                body(ivec2(memory::ascending(x, 1, count), integer(y)), x, y, count);
+            }
+        }
+    }
+
+    static std::byte* at(const plane& p, int x, int y)
+    {
+        const int size = p.format == pixel_format::r8 ? 1 : 4;
+        return p.data + static_cast<std::size_t>(y) * p.row_bytes + static_cast<std::size_t>(x) * static_cast<std::size_t>(size);
+    }
+
+    static void store(const plane& p, int x, int y, Real value, int count)
+    {
+        if (p.format != pixel_format::r8) {
+            memory::store(at(p, x, y), value, count);
+            return;
+        }
+        // To nearest, ties to even, by the rounding of the sum.
+        const Real rounded = value * Real(255.0F) + Real(8388608.0F);
+        memory::store_bytes(at(p, x, y), integer(rounded - Real(8388608.0F)), count);
+    }
+
+    AO_CPU_KERNEL static void linearize(const pass_arguments& a, const tile& t)
+    {
+        linearize_pass<Real, linearize_resources<Real>> pass{};
+        pass.resources.depth = reader<Real>(a.source);
+        pass.ao_affine = a.options.affine;
+        const auto c = constants<typename decltype(pass)::ao_depth_decode>(a);
+        for_blocks(t,
+                   [&](ivec2 pixel, int x, int y, int count) { store(a.target, x, y, pass.ao_linearize_pass(c, pixel), count); });
+    }
+
+    // The options that are asked per tap are constants.
+    template <bool Parallel, bool LimitThickness>
+    AO_CPU_KERNEL static void occlusion(const pass_arguments& a, const tile& t)
+    {
+        occlusion_pass<Real, occlusion_resources<Real>> pass{};
+        pass.ao_tap_count = a.options.tap_count;
+        pass.ao_normal_source = a.options.normal_source;
+        pass.ao_rotate_normals = a.options.rotate_normals;
+        pass.ao_parallel = Parallel;
+        pass.ao_limit_thickness = LimitThickness;
+        pass.ao_mark_background = a.options.mark_background;
+        pass.resources.eye_depth = reader<Real>(a.source);
+        pass.resources.normals = reader<Real>(a.normal);
+        const auto table = [&](int i) {
+            reader<Real> r;
+            r.data = reinterpret_cast<const std::byte*>(a.rotation + i * tile_size * tile_size);
+            r.row_words = tile_size;
+            return r;
+        };
+        pass.resources.rotation_x = table(0);
+        pass.resources.rotation_y = table(1);
+        pass.resources.kernel = a.kernel;
+        const auto c = constants<typename decltype(pass)::ao_occlusion_constants>(a);
+        for_blocks(t,
+                   [&](ivec2 pixel, int x, int y, int count) { store(a.target, x, y, pass.ao_occlusion_pass(c, pixel), count); });
+    }
+
+    AO_CPU_KERNEL static void filter_rows(const pass_arguments& a, const tile& t)
+    {
+        filter_pass<Real, filter_resources<Real>> pass{};
+        pass.ao_filter_radius = a.options.filter_radius;
+        pass.resources.first = reader<Real>(a.source);
+        const auto c = constants<typename decltype(pass)::ao_filter_constants>(a);
+        for_blocks(t, [&](ivec2 pixel, int x, int y, int count) {
+            const vec2 sum = pass.ao_filter_rows_pass(c, pixel);
+            store(a.target, x, y, sum.x, count);
+            store(a.counts, x, y, sum.y, count);
+        });
+    }
+
+    AO_CPU_KERNEL static void filter_columns(const pass_arguments& a, const tile& t)
+    {
+        filter_pass<Real, filter_resources<Real>> pass{};
+        pass.ao_filter_radius = a.options.filter_radius;
+        pass.resources.first = reader<Real>(a.source);
+        pass.resources.counts = reader<Real>(a.counts);
+        const auto c = constants<typename decltype(pass)::ao_filter_constants>(a);
+        for_blocks(t, [&](ivec2 pixel, int x, int y, int count) {
+            store(a.target, x, y, pass.ao_filter_columns_pass(c, pixel), count);
+        });
+    }
+
+    static constexpr kernel_table table{
+        linearize,
+        { { occlusion<false, false>, occlusion<false, true> }, { occlusion<true, false>, occlusion<true, true> } },
+        filter_rows,
+        filter_columns,
+    };
+};
+
+} // namespace ao::cpu::detail
