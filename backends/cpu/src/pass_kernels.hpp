@@ -93,14 +93,14 @@ struct pass_kernels {
         pass.ao_mark_background = a.options.mark_background;
         pass.resources.eye_depth = reader<Real>(a.source);
         pass.resources.normals = reader<Real>(a.normal);
-        const auto table = [&](int i) {
+        const auto rotation = [&](int i) {
             reader<Real> r;
             r.data = reinterpret_cast<const std::byte*>(a.rotation + i * tile_size * tile_size);
             r.row_words = tile_size;
             return r;
         };
-        pass.resources.rotation_x = table(0);
-        pass.resources.rotation_y = table(1);
+        pass.resources.rotation_x = rotation(0);
+        pass.resources.rotation_y = rotation(1);
         pass.resources.kernel = a.kernel;
         const auto c = constants<typename decltype(pass)::ao_occlusion_constants>(a);
         for_blocks(t,
