@@ -2,6 +2,7 @@
 // Compile with -ffp-contract=off (ao::strict_fp) where results must equal those of the shaders.
 #pragma once
 
+#include "ao/detail/bits.hpp"
 #include "ao/real.hpp"
 
 #include <glm/vec2.hpp>

@@ -7,4 +7,8 @@
 #include "ao/shared/projection.h"
 #include "ao/shared/tile.h"
 #include "ao/shared/geometry.h"
+#include "ao/shared/elementary.h"
+#include "ao/shared/color.h"
+#include "ao/shared/blend.h"
+#include "ao/shared/shading.h"
 // clang-format on

@@ -7,3 +7,7 @@
 #define real float
 #define integer int
 #define mask bool
+#define ao_exponent(x) (int(floatBitsToUint(x) >> 23 & 255u) - 127)
+#define ao_power_of_two(n) uintBitsToFloat(uint((n) + 127) << 23)
+#define ao_real_of_bits(n) uintBitsToFloat(n)
+#define ao_any(m) (m)
