@@ -28,3 +28,24 @@ AO_FN vec3 ao_octahedral_direction(real u, real v)
     vec3 direction = vec3(x, y, z);
     return direction;
 }
+
+AO_CONST int ao_normal_vector = 0;     // xyz of a float format, any length
+AO_CONST int ao_normal_unorm10 = 1;    // xyz of RGB10A2, 0 ... 1 for -1 ... 1
+AO_CONST int ao_normal_octahedral = 2; // xy of RG16, 0 ... 1 for -1 ... 1, octahedral
+AO_CONST int ao_normal_from_depth = 3; // none stored: rebuilt from depth
+
+// What a stored normal's texel, as the API delivers it, says; of any length.
+AO_FN vec3 ao_decoded_normal(int source, vec4 texel)
+{
+    vec3 stored = vec3(texel);
+    if (source == ao_normal_unorm10) {
+        stored = vec3(ao_signed_from_code(ao_unorm_code(texel.x, real(1023)), real(1023)),
+                      ao_signed_from_code(ao_unorm_code(texel.y, real(1023)), real(1023)),
+                      ao_signed_from_code(ao_unorm_code(texel.z, real(1023)), real(1023)));
+    }
+    if (source == ao_normal_octahedral) {
+        stored = ao_octahedral_direction(ao_signed_from_code(ao_unorm_code(texel.x, real(65535)), real(65535)),
+                                         ao_signed_from_code(ao_unorm_code(texel.y, real(65535)), real(65535)));
+    }
+    return stored;
+}

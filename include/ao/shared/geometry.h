@@ -61,6 +61,14 @@ AO_FN vec3 ao_mapped_normal(vec3 normal, vec3 tangent, real handedness, vec3 tex
     return ao_normalize_or(mapped, n);
 }
 
+// Squared length of the longer of the two screen derivatives of uv.
+AO_FN real ao_footprint(vec2 along_x, vec2 along_y)
+{
+    AO_PRECISE real x = along_x.x * along_x.x + along_x.y * along_x.y;
+    AO_PRECISE real y = along_y.x * along_y.x + along_y.y * along_y.y;
+    return max(x, y);
+}
+
 // Octahedral coordinates in [-1, 1] of a unit vector: the inverse of ao_octahedral_direction.
 AO_FN vec2 ao_octahedral_coordinates(vec3 n)
 {
@@ -85,17 +93,17 @@ AO_FN vec4 ao_packed_frame(vec3 normal, vec3 tangent, real handedness)
     vec2 packed_tangent = ao_octahedral_coordinates(ao_normalize_or(tangent, ao_any_tangent(n)));
     mask turned = handedness < real(0);
     AO_PRECISE real marked = packed_tangent.x + mix(real(0), real(4), turned);
-    vec4 packed = vec4(packed_normal.x, packed_normal.y, marked, packed_tangent.y);
-    return packed;
+    vec4 stored = vec4(packed_normal.x, packed_normal.y, marked, packed_tangent.y);
+    return stored;
 }
 
 // ao_mapped_normal of a packed frame, as seen from the front.
-AO_FN vec3 ao_normal_of_frame(vec4 packed, vec3 texel, real green)
+AO_FN vec3 ao_normal_of_frame(vec4 stored, vec3 texel, real green)
 {
-    mask turned = packed.z > real(2);
-    AO_PRECISE real along = packed.z - mix(real(0), real(4), turned);
-    vec3 normal = ao_octahedral_direction(packed.x, packed.y);
-    vec3 tangent = ao_octahedral_direction(along, packed.w);
+    mask turned = stored.z > real(2);
+    AO_PRECISE real along = stored.z - mix(real(0), real(4), turned);
+    vec3 normal = ao_octahedral_direction(stored.x, stored.y);
+    vec3 tangent = ao_octahedral_direction(along, stored.w);
     return ao_mapped_normal(normal, tangent, mix(real(1), real(-1), turned), texel, green);
 }
 

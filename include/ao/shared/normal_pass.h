@@ -1,11 +1,6 @@
 // The view-space shading normal of a pixel, from whatever the G-buffer holds.
 // Callbacks: vec4 ao_load_normal(ivec2) (the texel as the API delivers it), real ao_load_depth(ivec2) (eye depth).
-// Options:   int ao_normal_source, bool ao_rotate_normals.
-
-AO_CONST int ao_normal_vector = 0;     // xyz of a float format, any length
-AO_CONST int ao_normal_unorm10 = 1;    // xyz of RGB10A2, 0 ... 1 for -1 ... 1
-AO_CONST int ao_normal_octahedral = 2; // xy of RG16, 0 ... 1 for -1 ... 1, octahedral
-AO_CONST int ao_normal_from_depth = 3; // none stored: rebuilt from the depths around the pixel
+// Options:   int ao_normal_source (ao_normal_vector ... of encoding.h), bool ao_rotate_normals.
 
 // Difference of view positions along one axis of the picture, from the neighbour nearer in depth.
 // `step` is (1, 0) or (0, 1). Zero where both neighbours are background or outside.
@@ -53,17 +48,7 @@ AO_PASS vec3 ao_shading_normal(ao_projection p, ao_rotation to_view, vec2 size, 
     if (ao_normal_source == ao_normal_from_depth) {
         return ao_normal_of_depth(p, size, pixel, position, parallel);
     }
-    vec4 texel = ao_load_normal(pixel);
-    vec3 stored = vec3(texel);
-    if (ao_normal_source == ao_normal_unorm10) {
-        stored = vec3(ao_signed_from_code(ao_unorm_code(texel.x, real(1023)), real(1023)),
-                      ao_signed_from_code(ao_unorm_code(texel.y, real(1023)), real(1023)),
-                      ao_signed_from_code(ao_unorm_code(texel.z, real(1023)), real(1023)));
-    }
-    if (ao_normal_source == ao_normal_octahedral) {
-        stored = ao_octahedral_direction(ao_signed_from_code(ao_unorm_code(texel.x, real(65535)), real(65535)),
-                                         ao_signed_from_code(ao_unorm_code(texel.y, real(65535)), real(65535)));
-    }
+    vec3 stored = ao_decoded_normal(ao_normal_source, ao_load_normal(pixel));
     if (ao_rotate_normals) {
         stored = ao_rotate(to_view, stored);
     }

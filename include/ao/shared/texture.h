@@ -126,9 +126,10 @@ AO_PASS vec4 ao_sample(uint texture, vec2 uv, real footprint)
     real level = floor(lod);
     AO_PRECISE real weight = lod - level;
     vec4 color = ao_bilinear(t, level, u, v);
+    AO_PRECISE real next = level + real(1);
     mask between = weight > real(0);
     if (ao_any(between)) {
-        color = ao_lerp(color, ao_bilinear(t, mix(level, level + real(1), between), u, v), weight);
+        color = ao_lerp(color, ao_bilinear(t, mix(level, next, between), u, v), weight);
     }
     return color;
 }
