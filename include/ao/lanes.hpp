@@ -70,6 +70,7 @@ struct lane_instructions {
 // N verdicts.
 template <int N, class Tag = void>
 struct lane_mask {
+    static constexpr int width = N;
     using instructions = lane_instructions<N, Tag>;
     using native = typename instructions::mask_bits;
     native bits;

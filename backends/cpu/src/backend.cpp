@@ -6,11 +6,13 @@
 #include "ao/kernel.hpp"
 
 #include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <cassert>
+#include <cstring>
 #include <new>
 #include <string>
 #include <utility>
@@ -68,12 +70,12 @@ int padded_pitch(int pixels)
 
 plane plane_of(const image_view& v)
 {
-    return { static_cast<std::byte*>(v.data), v.row_bytes, v.format };
+    return { static_cast<std::byte*>(v.data), v.row_bytes, bytes_per_pixel(v.format) / 4, v.format };
 }
 
 plane plane_of(const aligned_floats& floats, int pitch, std::size_t offset = 0)
 {
-    return { reinterpret_cast<std::byte*>(floats.get() + offset), static_cast<std::size_t>(pitch) * sizeof(float),
+    return { reinterpret_cast<std::byte*>(floats.get() + offset), static_cast<std::size_t>(pitch) * sizeof(float), 1,
              pixel_format::r32f };
 }
 
@@ -128,7 +130,10 @@ result<backend> backend::create(const options& o)
         return error(errc::device, std::string("this machine or build does not have ") + std::string(name_of(lanes)));
     }
     try {
-        const int threads = o.threads == 0 ? oneapi::tbb::task_arena::automatic : o.threads;
+        // Asked for more than it allows, oneTBB would print a warning and start what it allows.
+        using control = oneapi::tbb::global_control;
+        const auto allowed = static_cast<int>(control::active_value(control::max_allowed_parallelism));
+        const int threads = o.threads == 0 ? allowed : std::min(o.threads, allowed);
         std::unique_ptr<detail::machine> m(
             new detail::machine{ lanes, detail::kernels_of(lanes), o.tile_width > 0 ? o.tile_width : 256,
                                  o.tile_height > 0 ? o.tile_height : 16, oneapi::tbb::task_arena(threads) });
@@ -217,7 +222,7 @@ void backend::record_pass(commands, program& prepared, binding& bound, const pla
 
     detail::pass_arguments a;
     a.options = each.options;
-    std::memcpy(a.constants.data(), each.constants.data(), each.constants_size);
+    std::memcpy(a.constants, each.constants.data(), each.constants_size);
     a.width = p.facts.width;
     a.height = p.facts.height;
     a.source = find(each.inputs[0]);

@@ -12,12 +12,13 @@ namespace ao::cpu::detail {
 struct plane {
     std::byte* data = nullptr;
     std::size_t row_bytes = 0;
+    int pixel_words = 1; // of 4 bytes; 0: r8
     pixel_format format = pixel_format::r32f;
 };
 
 struct pass_arguments {
     pass_options options;
-    std::array<float, 32> constants{};
+    float constants[32] = {};
     int width = 0; // pixels of the picture
     int height = 0;
     plane source; // depth, visibility or sums

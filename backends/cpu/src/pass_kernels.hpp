@@ -29,10 +29,10 @@ struct pass_kernels {
     static Constants constants(const pass_arguments& a)
     {
         constexpr int count = sizeof(Constants) / sizeof(Real);
-        static_assert(count <= std::tuple_size_v<decltype(a.constants)>);
+        static_assert(sizeof(float) * count <= sizeof(a.constants));
         Real each[count];
         for (int i = 0; i < count; ++i) {
-            each[i] = Real(a.constants.data()[i]);
+            each[i] = Real(a.constants[i]);
         }
         Constants all;
         std::memcpy(&all, each, sizeof(all));
@@ -55,8 +55,8 @@ struct pass_kernels {
 
     static std::byte* at(const plane& p, int x, int y)
     {
-        const int size = p.format == pixel_format::r8 ? 1 : 4;
-        return p.data + static_cast<std::size_t>(y) * p.row_bytes + static_cast<std::size_t>(x) * static_cast<std::size_t>(size);
+        const std::size_t pixel_bytes = p.format == pixel_format::r8 ? 1 : 4;
+        return p.data + static_cast<std::size_t>(y) * p.row_bytes + static_cast<std::size_t>(x) * pixel_bytes;
     }
 
     static void store(const plane& p, int x, int y, Real value, int count)

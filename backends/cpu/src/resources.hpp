@@ -23,7 +23,7 @@ struct reader {
     explicit reader(const plane& p)
         : data(p.data),
           row_words(static_cast<int>(p.row_bytes / 4)),
-          pixel_words(bytes_per_pixel(p.format) / 4),
+          pixel_words(p.pixel_words),
           format(p.format)
     {
     }

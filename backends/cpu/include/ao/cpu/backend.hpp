@@ -46,7 +46,7 @@ bool is_available(width w);
 
 struct options {
     width lanes = width::automatic;
-    int threads = 0; // of the calling thread and oneTBB's together; 0: all
+    int threads = 0; // the calling one and oneTBB's together; 0, or more than oneTBB allows: all that it allows
     // Pixels of one task; 0: chosen. Any size gives the same bits; widths below 64 pixels cost time.
     int tile_width = 0;
     int tile_height = 0;
