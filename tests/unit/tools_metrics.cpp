@@ -45,7 +45,7 @@ TEST_CASE("error without reference noise is the plain error", "[tools][metrics]"
     std::vector<double> sizes;
     for (std::size_t i = 0; i < p.x.size(); ++i)
         if (p.mask[i] != 0) {
-            const double d = double{ p.x[i] } - double{ p.truth[i] };
+            const double d = static_cast<double>(p.x[i]) - static_cast<double>(p.truth[i]);
             square += d * d;
             sum += d;
             sizes.push_back(std::abs(d));

@@ -161,8 +161,10 @@ TEST_CASE("the G-buffer of a plane is its closed form", "[tools][gbuffer]")
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             const std::size_t i = static_cast<std::size_t>(y * width + x);
-            const double u = double{ f.left } + (double{ f.right } - double{ f.left }) * (x + 0.5) / width;
-            const double v = double{ f.top } + (double{ f.bottom } - double{ f.top }) * (y + 0.5) / height;
+            const double u =
+                static_cast<double>(f.left) + (static_cast<double>(f.right) - static_cast<double>(f.left)) * (x + 0.5) / width;
+            const double v =
+                static_cast<double>(f.top) + (static_cast<double>(f.bottom) - static_cast<double>(f.top)) * (y + 0.5) / height;
             const glm::dvec3 from = f.orthographic ? glm::dvec3(c.eye) + axes * glm::dvec3(u, v, 0.0) : glm::dvec3(c.eye);
             const glm::dvec3 along = axes * (f.orthographic ? glm::dvec3(0.0, 0.0, -1.0) : glm::dvec3(u, v, -1.0));
             const double t = -from.y / along.y;
@@ -176,7 +178,7 @@ TEST_CASE("the G-buffer of a plane is its closed form", "[tools][gbuffer]")
                 continue;
             }
             ++hits;
-            CHECK(std::abs(double{ g.depth[i] } - t) <= 1.2e-7 * t);
+            CHECK(std::abs(static_cast<double>(g.depth[i]) - t) <= 1.2e-7 * t);
             CHECK(g.position[i].z == -g.depth[i]);
             CHECK(glm::length(glm::dvec3(g.world[i]) - p) < 1e-6 * (10.0 + t));
             CHECK(glm::length(glm::dvec3(g.normal[i]) - glm::transpose(axes) * glm::dvec3(0.0, 1.0, 0.0)) < 1e-6);

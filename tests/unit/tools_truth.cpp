@@ -28,8 +28,8 @@ void check_sampling(const gbuffer& g, const std::vector<float>& half, unsigned r
         REQUIRE(g.hit[i] == 1);
         const double e = expected(glm::dvec3(g.world[i]));
         const double v = e * (1.0 - e) / rays;
-        CHECK(std::abs(double{ half[i] } - e) < 5.0 * std::sqrt(v) + 1e-4);
-        sum += double{ half[i] } - e;
+        CHECK(std::abs(static_cast<double>(half[i]) - e) < 5.0 * std::sqrt(v) + 1e-4);
+        sum += static_cast<double>(half[i]) - e;
         variance += v;
     }
     CHECK(std::abs(sum) < 4.5 * std::sqrt(variance) + 1e-4 * static_cast<double>(g.size()));
@@ -109,7 +109,7 @@ TEST_CASE("a wall's crease has the closed form of a perpendicular rectangle", "[
 TEST_CASE("a sphere above a plane has the closed form", "[tools][truth]")
 {
     constexpr float radius = 1.0f, above = 2.0f;
-    constexpr double ball = radius, lift = above;
+    constexpr auto ball = static_cast<double>(radius), lift = static_cast<double>(above);
     scene s;
     add_floor(s, 30.0f);
     mesh_builder m(s);
@@ -144,7 +144,7 @@ TEST_CASE("the fall-off is a step at the radius", "[tools][truth]")
     constexpr unsigned rays = 1024;
     for (const float radius : { 1.9f, 2.5f, 4.0f }) {
         // Blocked within the cone cos > h / r, whose cosine-weighted share is 1 - (h / r)^2.
-        const double share = radius > 2.0f ? std::pow(2.0 / double{ radius }, 2) : 1.0;
+        const double share = radius > 2.0f ? std::pow(2.0 / static_cast<double>(radius), 2) : 1.0;
         check_sampling(g, trace(s, c, g, { radius, 2 * rays, 5 }).a, rays, [&](const glm::dvec3&) { return share; });
     }
 }

@@ -12,7 +12,7 @@ namespace {
 
 double half_height(const camera& c)
 {
-    return std::tan(glm::radians(double{ c.fov }) / 2.0);
+    return std::tan(glm::radians(static_cast<double>(c.fov)) / 2.0);
 }
 
 frustum symmetric(double half_width, double half_height, depth_range range, bool orthographic)
@@ -32,8 +32,8 @@ frustum symmetric(double half_width, double half_height, depth_range range, bool
 
 glm::dmat3 view_axes(const camera& c)
 {
-    const double yaw = glm::radians(double{ c.yaw });
-    const double pitch = glm::radians(double{ c.pitch });
+    const double yaw = glm::radians(static_cast<double>(c.yaw));
+    const double pitch = glm::radians(static_cast<double>(c.pitch));
     const double sy = std::sin(yaw), cy = std::cos(yaw), sp = std::sin(pitch), cp = std::cos(pitch);
     return { { cy, 0.0, sy }, { -sy * sp, cp, cy * sp }, { -sy * cp, -sp, cy * cp } };
 }
@@ -70,13 +70,13 @@ depth_range clip_range(const bounds& scene, const camera& c)
 frustum perspective(const camera& c, float aspect, depth_range range)
 {
     const double h = half_height(c);
-    return symmetric(h * double{ aspect }, h, range, false);
+    return symmetric(h * static_cast<double>(aspect), h, range, false);
 }
 
 frustum orthographic(const camera& c, float aspect, float distance, depth_range range)
 {
-    const double h = half_height(c) * double{ distance };
-    return symmetric(h * double{ aspect }, h, range, true);
+    const double h = half_height(c) * static_cast<double>(distance);
+    return symmetric(h * static_cast<double>(aspect), h, range, true);
 }
 
 camera frame(const bounds& scene, float aspect, float fov)
@@ -88,7 +88,7 @@ camera frame(const bounds& scene, float aspect, float fov)
     const glm::dvec3 low = scene.low, high = scene.high;
     const double radius = std::max(glm::length(high - low) / 2.0, 1.0e-6);
     const double vertical = std::atan(half_height(c));
-    const double horizontal = std::atan(half_height(c) * double{ aspect });
+    const double horizontal = std::atan(half_height(c) * static_cast<double>(aspect));
     const double distance = radius / std::sin(std::min(vertical, horizontal));
     c.eye = glm::vec3((low + high) / 2.0 + distance * view_axes(c)[2]);
     return c;
@@ -96,9 +96,9 @@ camera frame(const bounds& scene, float aspect, float fov)
 
 pixel_ray ray_through(const frustum& f, int x, int y, int width, int height)
 {
-    const double left = f.left, top = f.top;
-    const double px = left + (double{ f.right } - left) * (x + 0.5) / width;
-    const double py = top + (double{ f.bottom } - top) * (y + 0.5) / height;
+    const auto left = static_cast<double>(f.left), top = static_cast<double>(f.top);
+    const double px = left + (static_cast<double>(f.right) - left) * (x + 0.5) / width;
+    const double py = top + (static_cast<double>(f.bottom) - top) * (y + 0.5) / height;
     return f.orthographic ? pixel_ray{ px, py, 0.0, 0.0 } : pixel_ray{ 0.0, 0.0, px, py };
 }
 

@@ -68,8 +68,8 @@ void tracer::pixel(int x, int y) const
     const glm::uvec3 corners = s.triangles[triangle];
     const glm::dvec3 a = s.positions[corners.x], b = s.positions[corners.y], c = s.positions[corners.z];
     glm::dvec3 geometric = glm::normalize(glm::cross(b - a, c - a));
-    glm::vec3 shading = shading_normal(s, corners, double{ query.hit.u }, double{ query.hit.v }, geometric);
-    const double t = refine(double{ query.ray.tfar }, origin, direction, a, geometric);
+    glm::vec3 shading = shading_normal(s, corners, static_cast<double>(query.hit.u), static_cast<double>(query.hit.v), geometric);
+    const double t = refine(static_cast<double>(query.ray.tfar), origin, direction, a, geometric);
 
     // The file's winding and the file's normals need not agree, so each is turned by itself.
     if (glm::dot(geometric, direction) > 0.0)

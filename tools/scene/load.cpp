@@ -93,8 +93,8 @@ void add_mesh(scene& s, const aiMesh& mesh, const aiMatrix4x4& to_world, const s
         glm::dvec3 normal{ 0.0 };
         if (mesh.HasNormals()) {
             const aiVector3D& n = mesh.mNormals[i];
-            normal =
-                side * (glm::cross(y, z) * double{ n.x } + glm::cross(z, x) * double{ n.y } + glm::cross(x, y) * double{ n.z });
+            normal = side * (glm::cross(y, z) * static_cast<double>(n.x) + glm::cross(z, x) * static_cast<double>(n.y) +
+                             glm::cross(x, y) * static_cast<double>(n.z));
         }
         s.normals.push_back(unit_or_zero(normal));
     }

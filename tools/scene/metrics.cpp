@@ -18,8 +18,8 @@ picture_error measure(Picture x, std::span<const float> a, std::span<const float
     for (std::size_t i = 0; i < mask.size(); ++i) {
         if (mask[i] == 0)
             continue;
-        const double to_a = x(i) - double{ a[i] };
-        const double to_b = x(i) - double{ b[i] };
+        const double to_a = x(i) - static_cast<double>(a[i]);
+        const double to_b = x(i) - static_cast<double>(b[i]);
         square += to_a * to_b;
         difference += (to_a + to_b) / 2.0;
         sizes.push_back(std::abs(to_a + to_b) / 2.0);
@@ -41,7 +41,7 @@ picture_error measure(Picture x, std::span<const float> a, std::span<const float
 picture_error error_against(std::span<const float> x, std::span<const float> a, std::span<const float> b,
                             std::span<const std::uint8_t> mask)
 {
-    return measure([&](std::size_t i) { return double{ x[i] }; }, a, b, mask);
+    return measure([&](std::size_t i) { return static_cast<double>(x[i]); }, a, b, mask);
 }
 
 picture_error error_of_best_constant(std::span<const float> a, std::span<const float> b, std::span<const std::uint8_t> mask)
@@ -58,7 +58,7 @@ agreement agreement_of(std::span<const float> x, std::span<const float> y)
         if (std::bit_cast<std::uint32_t>(x[i]) == std::bit_cast<std::uint32_t>(y[i]))
             continue;
         ++result.differing;
-        const double size = std::abs(double{ x[i] } - double{ y[i] });
+        const double size = std::abs(static_cast<double>(x[i]) - static_cast<double>(y[i]));
         result.largest = std::max(result.largest, size >= 0.0 ? size : std::numeric_limits<double>::infinity());
     }
     return result;
