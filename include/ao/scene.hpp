@@ -89,10 +89,14 @@ struct light {
     glm::vec3 attenuation{ 1.0F, 0.0F, 0.0F };
 };
 
-// Ambient light by direction of the normal, linear RGB, in real spherical harmonics of order 2 (irradiance / pi); a constant
-// ambient c is c / 0.28209479 in the first and 0 in the others.
+// Ambient light by direction n of the normal, world space, linear RGB, as the polynomial that real spherical harmonics of order 2
+// are: coefficients of 1, y, z, x, xy, yz, 3 z^2 - 1, xz, x^2 - y^2. ao/ambient.hpp makes them from harmonics or a picture.
 struct ambient_light {
     std::array<glm::vec3, 9> coefficients{};
+
+    ambient_light() = default;
+    // The same from everywhere.
+    constexpr explicit ambient_light(const glm::vec3& constant) { coefficients[0] = constant; }
 };
 
 struct scene {

@@ -118,14 +118,16 @@ constexpr result<std::vector<std::uint32_t>> blend_order(std::span<const blend_n
     return order;
 }
 
-// 0 or 1 where a node always returns its first or second child, else nothing.
+// 0 or 1 where a node always returns its first or second child, else nothing. fixed_k: k never changes.
 class constant_weights {
 public:
-    constexpr explicit constant_weights(const scene& s) : scene_(&s), known_(s.textures.size(), unknown) {}
+    constexpr constant_weights(const scene& s, bool fixed_k) : scene_(&s), fixed_k_(fixed_k), known_(s.textures.size(), unknown)
+    {
+    }
     constexpr std::optional<int> of(const blend_node& node)
     {
         if (node.mask == no_texture) {
-            return node.k == 0 ? std::optional(0) : node.k == 1 ? std::optional(1) : std::nullopt;
+            return !fixed_k_ ? std::nullopt : node.k == 0 ? std::optional(0) : node.k == 1 ? std::optional(1) : std::nullopt;
         }
         char& found = known_[static_cast<std::size_t>(node.mask)];
         if (found == unknown) {
@@ -153,6 +155,7 @@ private:
     }
 
     const scene* scene_;
+    bool fixed_k_;
     std::vector<char> known_;
 };
 
@@ -194,7 +197,7 @@ public:
         }
         const auto material = [&](int i) -> const standard_material& { return s.materials[static_cast<std::size_t>(i)]; };
         const result<std::vector<std::uint32_t>> order = detail::blend_order(s.blends);
-        detail::constant_weights constant(s);
+        detail::constant_weights constant(s, false);
         for (const std::uint32_t node : *order) {
             const blend_node& blend = s.blends[node];
             const std::size_t self = materials_ + node;

@@ -1,0 +1,71 @@
+// Ambient light from spherical harmonics or from a picture of the surroundings.
+#pragma once
+
+#include "ao/color.hpp"
+#include "ao/detail/elementary.hpp"
+#include "ao/scene.hpp"
+
+#include <array>
+#include <cassert>
+#include <cstddef>
+
+namespace ao {
+
+// From the coefficients of light L_lm, order (0 0), (1 -1), (1 0), (1 1), (2 -2) ... (2 2), real and orthonormal over the unit
+// sphere: irradiance / pi, that is convolved with the clamped cosine (Ramamoorthi and Hanrahan, SIGGRAPH 2001).
+constexpr ambient_light ambient_of_harmonics(const std::array<glm::dvec3, 9>& light)
+{
+    constexpr double first = 0.48860251190291992 * 2 / 3;
+    constexpr double second = 1.0925484305920792 / 4;
+    constexpr std::array<double, 9> factors{
+        0.28209479177387814, first, first, first, second, second, 0.31539156525252005 / 4, second, 0.54627421529603959 / 4
+    };
+    ambient_light ambient;
+    for (std::size_t i = 0; i < 9; ++i) {
+        for (int channel = 0; channel < 3; ++channel) {
+            ambient.coefficients[i][channel] = static_cast<float>(light[i][channel] * factors[i]);
+        }
+    }
+    return ambient;
+}
+
+// From an equirectangular picture: its middle is -Z, right of it +X, its first row +Y. Precondition: a valid texture.
+inline ambient_light ambient_of_environment(const texture& t)
+{
+    std::array<glm::dvec3, 9> light{};
+    const auto width = static_cast<std::size_t>(t.width);
+    const auto height = static_cast<std::size_t>(t.height);
+    assert(t.texels.size() == 4 * width * height);
+    for (std::size_t row = 0; row < height; ++row) {
+        const double top = detail::pi * static_cast<double>(row) / static_cast<double>(height);
+        const double bottom = detail::pi * static_cast<double>(row + 1) / static_cast<double>(height);
+        const double solid = 2 * detail::pi / static_cast<double>(width) * (detail::cosine(top) - detail::cosine(bottom));
+        const double y = detail::cosine((top + bottom) / 2);
+        const double across = detail::sine((top + bottom) / 2);
+        for (std::size_t column = 0; column < width; ++column) {
+            const double angle = 2 * detail::pi * ((static_cast<double>(column) + 0.5) / static_cast<double>(width) - 0.5);
+            const double x = across * detail::sine(angle);
+            const double z = -across * detail::cosine(angle);
+            const std::array<double, 9> basis{ 0.28209479177387814,
+                                               0.48860251190291992 * y,
+                                               0.48860251190291992 * z,
+                                               0.48860251190291992 * x,
+                                               1.0925484305920792 * x * y,
+                                               1.0925484305920792 * y * z,
+                                               0.31539156525252005 * (3 * z * z - 1),
+                                               1.0925484305920792 * x * z,
+                                               0.54627421529603959 * (x * x - y * y) };
+            const std::size_t texel = 4 * (row * width + column);
+            for (int channel = 0; channel < 3; ++channel) {
+                const std::uint8_t code = t.texels[texel + static_cast<std::size_t>(channel)];
+                const double value = t.srgb ? static_cast<double>(srgb_table[code]) : static_cast<double>(code) / 255;
+                for (std::size_t i = 0; i < 9; ++i) {
+                    light[i][channel] += value * solid * basis[i];
+                }
+            }
+        }
+    }
+    return ambient_of_harmonics(light);
+}
+
+} // namespace ao
