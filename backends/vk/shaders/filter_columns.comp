@@ -1,6 +1,9 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #define AO_TARGET AO_OUTPUT
+#ifdef AO_SOFTWARE
+#define AO_STORED_SOURCE rg32f
+#endif
 #include "ao/shared/prelude.glsl"
 #include "ao/shared/functions.h"
 #include "resources.glsl"

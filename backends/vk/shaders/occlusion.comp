@@ -1,6 +1,11 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #define AO_TARGET AO_OUTPUT
+#ifdef AO_SOFTWARE
+#extension GL_EXT_control_flow_attributes : require
+#define AO_UNROLL [[unroll]]
+#define AO_STORED_SOURCE r32f
+#endif
 #include "ao/shared/prelude.glsl"
 #include "ao/shared/functions.h"
 #include "resources.glsl"

@@ -14,7 +14,14 @@ layout(constant_id = 6) const bool ao_mark_background = false;
 layout(constant_id = 7) const int ao_filter_radius = 0;
 layout(constant_id = 8) const bool depth_in_z = false; // positions
 
-layout(binding = 0) uniform texture2D source; // the first of ao::pass::inputs
+// The first of ao::pass::inputs. AO_STORED_SOURCE: it is the program's own picture of that format, read as a storage image.
+#ifdef AO_STORED_SOURCE
+layout(binding = 5, AO_STORED_SOURCE) uniform readonly image2D source;
+vec4 fetch_source(ivec2 pixel) { return imageLoad(source, pixel); }
+#else
+layout(binding = 0) uniform texture2D source;
+vec4 fetch_source(ivec2 pixel) { return texelFetch(source, pixel, 0); }
+#endif
 layout(binding = 1) uniform texture2D normals;
 layout(binding = 2, std140) uniform kernel_table { vec4 offsets[1024]; };
 layout(binding = 3) uniform textureBuffer rotations;
@@ -22,14 +29,14 @@ layout(binding = 4, AO_TARGET) uniform writeonly image2D target;
 
 real ao_load_stored_depth(ivec2 pixel)
 {
-    vec4 texel = texelFetch(source, pixel, 0);
+    vec4 texel = fetch_source(pixel);
     return depth_in_z ? texel.z : texel.x;
 }
-real ao_load_depth(ivec2 pixel) { return texelFetch(source, pixel, 0).x; }
+real ao_load_depth(ivec2 pixel) { return fetch_source(pixel).x; }
 vec4 ao_load_normal(ivec2 pixel) { return texelFetch(normals, pixel, 0); }
 vec2 ao_load_rotation(ivec2 texel) { return texelFetch(rotations, texel.y * ao_tile_size + texel.x).xy; }
 vec4 ao_tap(int i) { return offsets[i]; }
-real ao_load_visibility(ivec2 pixel) { return texelFetch(source, pixel, 0).x; }
-vec2 ao_load_row_sum(ivec2 pixel) { return texelFetch(source, pixel, 0).xy; }
+real ao_load_visibility(ivec2 pixel) { return fetch_source(pixel).x; }
+vec2 ao_load_row_sum(ivec2 pixel) { return fetch_source(pixel).xy; }
 
 bool in_picture(ivec2 pixel) { return all(lessThan(pixel, imageSize(target))); }

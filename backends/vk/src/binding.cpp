@@ -28,6 +28,7 @@ VkDescriptorImageInfo picture_of(image_id id, const prepared& program, const hos
 
 void write_set(const device& d, VkDescriptorSet set, const pass& each, const prepared& program, const host_images<image>& images)
 {
+    const bool stored_source = is_software(d) && each.inputs[0] != image_id::depth;
     const VkDescriptorImageInfo first = picture_of(each.inputs[0], program, images);
     // The shader names a picture of normals even where the options take it out of use; any picture will do then.
     const VkDescriptorImageInfo second = each.inputs[1] == image_id::none ? first : picture_of(each.inputs[1], program, images);
@@ -42,7 +43,8 @@ void write_set(const device& d, VkDescriptorSet set, const pass& each, const pre
         writes[i].dstBinding = i;
         writes[i].descriptorCount = 1;
     }
-    writes[0].descriptorType = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
+    writes[0].dstBinding = stored_source ? 5 : 0;
+    writes[0].descriptorType = stored_source ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE : VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
     writes[0].pImageInfo = &first;
     writes[1].descriptorType = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
     writes[1].pImageInfo = &second;
@@ -75,7 +77,7 @@ result<binding> backend::bind(program& p, const plan& current, const host_images
 {
     const device& d = *device_;
     const prepared& ready = *p.prepared_;
-    if (!same_structure(ready.plan, current)) {
+    if (!same_structure(ready.given, current)) {
         return error(errc::plan_mismatch, "the program was prepared for a plan of another structure");
     }
     if (const auto wrong = wrong_images(current, images)) {
@@ -86,11 +88,11 @@ result<binding> backend::bind(program& p, const plan& current, const host_images
         return error(errc::out_of_memory, "out of memory");
     }
 
-    const auto count = static_cast<std::uint32_t>(current.passes.size());
+    const auto count = static_cast<std::uint32_t>(ready.executed.passes.size());
     const std::array<VkDescriptorPoolSize, 4> sizes{ { { VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 2 * count },
                                                        { VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, count },
                                                        { VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, count },
-                                                       { VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, count } } };
+                                                       { VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 2 * count } } };
     VkDescriptorPoolCreateInfo pool{};
     pool.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
     pool.maxSets = count;
@@ -108,8 +110,8 @@ result<binding> backend::bind(program& p, const plan& current, const host_images
     if (const VkResult code = d.call.AllocateDescriptorSets(d.host.device, &allocate, made->sets.data()); code != VK_SUCCESS) {
         return api_error(code, "vkAllocateDescriptorSets");
     }
-    for (std::size_t i = 0; i < current.passes.size(); ++i) {
-        write_set(d, made->sets[i], current.passes[i], ready, images);
+    for (std::size_t i = 0; i < count; ++i) {
+        write_set(d, made->sets[i], ready.executed.passes[i], ready, images);
     }
     return binding(std::move(made));
 }

@@ -42,18 +42,27 @@ error lacks(const char* what, pixel_format format)
     return error(errc::unsupported_format, text);
 }
 
-std::span<const std::uint32_t> shader_of(const pass& each, const plan& p)
+// The builds of one source: for storing to r32f and r8, for GPUs and for CPUs.
+struct shader_family {
+    std::span<const std::uint32_t> plain, r8, software, software_r8;
+};
+
+std::span<const std::uint32_t> shader_of(const device& d, const pass& each, const plan& p)
 {
+    using namespace shaders;
     const bool r8 = each.output == image_id::visibility && p.facts.output_format == pixel_format::r8;
+    const auto pick = [&](const shader_family& f) {
+        return is_software(d) ? (r8 ? f.software_r8 : f.software) : (r8 ? f.r8 : f.plain);
+    };
     switch (each.type) {
     case pass_type::linearize:
-        return shaders::linearize_comp;
+        return linearize_comp;
     case pass_type::occlusion:
-        return r8 ? shaders::occlusion_comp_r8 : shaders::occlusion_comp;
+        return pick({ occlusion_comp, occlusion_comp_r8, occlusion_comp_software, occlusion_comp_software_r8 });
     case pass_type::filter_rows:
-        return shaders::filter_rows_comp;
+        return is_software(d) ? filter_rows_comp_software : filter_rows_comp;
     case pass_type::filter_columns:
-        return r8 ? shaders::filter_columns_comp_r8 : shaders::filter_columns_comp;
+        return pick({ filter_columns_comp, filter_columns_comp_r8, filter_columns_comp_software, filter_columns_comp_software_r8 });
     }
     return {};
 }
@@ -89,7 +98,7 @@ struct specialisation {
 
 result<owned<VkPipeline>> make_pipeline(const device& d, const plan& p, const pass& each, VkPipelineLayout layout)
 {
-    const std::span<const std::uint32_t> code = shader_of(each, p);
+    const std::span<const std::uint32_t> code = shader_of(d, each, p);
     VkShaderModuleCreateInfo module_info{};
     module_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
     module_info.codeSize = code.size_bytes();
@@ -117,9 +126,9 @@ result<owned<VkPipeline>> make_pipeline(const device& d, const plan& p, const pa
 
 std::optional<error> make_layouts(const device& d, prepared& made)
 {
-    constexpr std::array<VkDescriptorType, 5> types{ VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
+    constexpr std::array<VkDescriptorType, 6> types{ VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
                                                      VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER,
-                                                     VK_DESCRIPTOR_TYPE_STORAGE_IMAGE };
+                                                     VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE };
     std::array<VkDescriptorSetLayoutBinding, types.size()> bindings{};
     for (std::uint32_t i = 0; i < bindings.size(); ++i) {
         bindings[i] = { i, types[i], 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr };
@@ -143,6 +152,38 @@ std::optional<error> make_layouts(const device& d, prepared& made)
 }
 
 } // namespace
+
+bool is_software(const device& d)
+{
+    return d.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+}
+
+plan executed_plan(const device& d, const plan& p)
+{
+    if (!is_software(d) || p.facts.depth != depth_source::linear) {
+        return p;
+    }
+    plan executed = p;
+    executed.passes = {};
+    pass copy;
+    copy.type = pass_type::linearize;
+    copy.options.affine = true;
+    copy.inputs[0] = image_id::depth;
+    copy.output = image_id::linear_depth;
+    linearize_constants identity{};
+    identity.scale = 1;
+    identity.background = std::numeric_limits<float>::infinity();
+    ao::detail::set_constants(copy, identity);
+    executed.passes.push_back(copy);
+    executed.transients.push_back({ image_id::linear_depth, pixel_format::r32f });
+    for (pass each : p.passes) {
+        if (each.inputs[0] == image_id::depth) {
+            each.inputs[0] = image_id::linear_depth;
+        }
+        executed.passes.push_back(each);
+    }
+    return executed;
+}
 
 std::optional<error> unsupported(const device& d, const plan& p)
 {
@@ -184,20 +225,22 @@ std::optional<error> unsupported(const device& d, const plan& p)
 result<program> backend::prepare(const plan& p)
 {
     const device& d = *device_;
-    if (const auto wrong = unsupported(d, p)) {
+    const plan executed = executed_plan(d, p);
+    if (const auto wrong = unsupported(d, executed)) {
         return *wrong;
     }
     std::unique_ptr<prepared> made(new (std::nothrow) prepared);
     if (!made) {
         return error(errc::out_of_memory, "out of memory");
     }
-    made->plan = p;
-    auto own_tables = make_tables(d, p);
+    made->given = p;
+    made->executed = executed;
+    auto own_tables = make_tables(d, executed);
     if (!own_tables) {
         return own_tables.error();
     }
     made->tables = std::move(*own_tables);
-    auto pictures = make_transients(d, p);
+    auto pictures = make_transients(d, executed);
     if (!pictures) {
         return pictures.error();
     }
@@ -205,8 +248,8 @@ result<program> backend::prepare(const plan& p)
     if (const auto wrong = make_layouts(d, *made)) {
         return *wrong;
     }
-    for (std::size_t i = 0; i < p.passes.size(); ++i) {
-        auto pipeline = make_pipeline(d, p, p.passes[i], made->layout.get());
+    for (std::size_t i = 0; i < executed.passes.size(); ++i) {
+        auto pipeline = make_pipeline(d, executed, executed.passes[i], made->layout.get());
         if (!pipeline) {
             return pipeline.error();
         }

@@ -5,8 +5,16 @@
 
 namespace ao::vk {
 
+// On a device that is a CPU (lavapipe) the passes read the program's own pictures as storage images, and host depth that the
+// occlusion would read directly is copied into one first.
+bool is_software(const device& d);
+
+// The plan that is run for `p`: with the pass that copies the depth, where there is one. It leaves every bit of the result.
+plan executed_plan(const device& d, const plan& p);
+
 struct prepared {
-    ao::plan plan; // as prepared for
+    ao::plan given;
+    ao::plan executed;
     ao::vk::tables tables;
     ao::vk::transients transients;
     owned<VkDescriptorSetLayout> set_layout;

@@ -38,27 +38,36 @@ void show_writes(const device& d, VkCommandBuffer commands, VkPipelineStageFlags
     d.call.CmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, stages, 0, 1, &barrier, 0, nullptr, 0, nullptr);
 }
 
+void dispatch(const device& d, VkCommandBuffer commands, const prepared& program, const bound& b, const pass& each, std::size_t slot)
+{
+    const VkPipelineLayout layout = program.layout.get();
+    d.call.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, program.pipelines[slot].get());
+    d.call.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &b.sets[slot], 0, nullptr);
+    d.call.CmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, static_cast<std::uint32_t>(each.constants_size),
+                            each.constants.data());
+    const group_size group = d.host.group;
+    const auto width = static_cast<std::uint32_t>(program.given.facts.width);
+    const auto height = static_cast<std::uint32_t>(program.given.facts.height);
+    d.call.CmdDispatch(commands, (width + group.x - 1) / group.x, (height + group.y - 1) / group.y, 1);
+}
+
 } // namespace
 
 void backend::record_pass(VkCommandBuffer buffer, program& p, binding& b, const plan& current, std::size_t index)
 {
     const device& d = *device_;
     const prepared& ready = *p.prepared_;
-    assert(index < current.passes.size() && same_structure(ready.plan, current));
+    assert(index < current.passes.size() && same_structure(ready.given, current));
 
     if (index == 0) {
         discard_transients(d, buffer, ready);
     }
-    const pass& each = current.passes[index];
-    const VkPipelineLayout layout = ready.layout.get();
-    d.call.CmdBindPipeline(buffer, VK_PIPELINE_BIND_POINT_COMPUTE, ready.pipelines[index].get());
-    d.call.CmdBindDescriptorSets(buffer, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &b.bound_->sets[index], 0, nullptr);
-    d.call.CmdPushConstants(buffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, static_cast<std::uint32_t>(each.constants_size),
-                            each.constants.data());
-    const group_size group = d.host.group;
-    const auto width = static_cast<std::uint32_t>(current.facts.width);
-    const auto height = static_cast<std::uint32_t>(current.facts.height);
-    d.call.CmdDispatch(buffer, (width + group.x - 1) / group.x, (height + group.y - 1) / group.y, 1);
+    const std::size_t added = ready.executed.passes.size() - current.passes.size();
+    if (index == 0 && added != 0) {
+        dispatch(d, buffer, ready, *b.bound_, ready.executed.passes[0], 0);
+        show_writes(d, buffer, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
+    }
+    dispatch(d, buffer, ready, *b.bound_, current.passes[index], index + added);
 
     if (index + 1 < current.passes.size()) {
         show_writes(d, buffer, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);

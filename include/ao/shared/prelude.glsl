@@ -11,3 +11,7 @@
 #define ao_power_of_two(n) uintBitsToFloat(uint((n) + 127) << 23)
 #define ao_real_of_bits(n) uintBitsToFloat(n)
 #define ao_any(m) (m)
+// What stands before the loop over taps: an attribute, where an API's shaders want one.
+#ifndef AO_UNROLL
+#define AO_UNROLL
+#endif
