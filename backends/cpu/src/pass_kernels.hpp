@@ -9,7 +9,7 @@
 
 #include <cstring>
 
-#if defined(__GNUC__)
+#if defined(__GNUC__) && !defined(AO_CPU_INSTRUMENTED)
 #define AO_CPU_KERNEL [[gnu::flatten]]
 #else
 #define AO_CPU_KERNEL
