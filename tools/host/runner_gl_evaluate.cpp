@@ -35,11 +35,8 @@ struct objects {
     }
 };
 
-error driver_error(gl_loader loader, GLuint program)
+error driver_error(const std::array<char, 200>& log)
 {
-    std::array<char, 200> log{};
-    load<PFNGLGETPROGRAMINFOLOGPROC>(loader, "glGetProgramInfoLog")(program, static_cast<GLsizei>(log.size()), nullptr,
-                                                                    log.data());
     const std::string text(log.data());
     return error(errc::shader, "evaluate: " + text.substr(0, text.find('\n')));
 }
@@ -60,12 +57,22 @@ ao::result<success> link(gl_loader loader, gl::shader_source source, GLuint prog
         load<PFNGLSPECIALIZESHADERPROC>(loader, "glSpecializeShader")(shader, "main", 0, nullptr, nullptr);
     }
     load<PFNGLATTACHSHADERPROC>(loader, "glAttachShader")(program, shader);
-    load<PFNGLDELETESHADERPROC>(loader, "glDeleteShader")(shader);
+    load<PFNGLDELETESHADERPROC>(loader, "glDeleteShader")(shader); // once the program goes
+    std::array<char, 200> log{};
+    GLint compiled = GL_FALSE;
+    load<PFNGLGETSHADERIVPROC>(loader, "glGetShaderiv")(shader, GL_COMPILE_STATUS, &compiled);
+    if (compiled == GL_FALSE) {
+        load<PFNGLGETSHADERINFOLOGPROC>(loader, "glGetShaderInfoLog")(shader, static_cast<GLsizei>(log.size()), nullptr,
+                                                                      log.data());
+        return driver_error(log);
+    }
     load<PFNGLLINKPROGRAMPROC>(loader, "glLinkProgram")(program);
     GLint linked = GL_FALSE;
     load<PFNGLGETPROGRAMIVPROC>(loader, "glGetProgramiv")(program, GL_LINK_STATUS, &linked);
     if (linked == GL_FALSE) {
-        return driver_error(loader, program);
+        load<PFNGLGETPROGRAMINFOLOGPROC>(loader, "glGetProgramInfoLog")(program, static_cast<GLsizei>(log.size()), nullptr,
+                                                                        log.data());
+        return driver_error(log);
     }
     return success{};
 }
