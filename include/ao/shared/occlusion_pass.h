@@ -53,8 +53,8 @@ AO_PASS real ao_occlusion_pass(ao_occlusion_constants c, ivec2 pixel)
     real divisor = mix(turn, real(1), steep);
     AO_PRECISE real gradient_x = mix(normal.x * p.slope_x / divisor, real(0), steep);
     AO_PRECISE real gradient_y = mix(normal.y * p.slope_y / divisor, real(0), steep);
-    AO_PRECISE real last_column = c.width - real(1);
-    AO_PRECISE real last_row = c.height - real(1);
+    AO_PRECISE real last_column = c.width - real(0.5);
+    AO_PRECISE real last_row = c.height - real(0.5);
 
     real occluded = real(0);
     for (int i = 0; i < ao_tap_count; ++i) {
@@ -66,8 +66,8 @@ AO_PASS real ao_occlusion_pass(ao_occlusion_constants c, ivec2 pixel)
         AO_PRECISE real inverse = ao_parallel ? real(1) : real(1) / mix(real(1), depth, ahead);
         AO_PRECISE real column = x * inverse + p.centre_x;
         AO_PRECISE real row = y * inverse + p.centre_y;
-        real column_inside = min(max(column, real(0)), last_column);
-        real row_inside = min(max(row, real(0)), last_row);
+        real column_inside = min(max(column, real(0.5)), last_column);
+        real row_inside = min(max(row, real(0.5)), last_row);
         real surface = ao_load_depth(ivec2(integer(column_inside), integer(row_inside)));
         AO_PRECISE real shift = gradient_x * (column_inside - column) + gradient_y * (row_inside - row);
         mask hit = ahead && surface > real(0);
