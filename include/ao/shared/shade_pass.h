@@ -156,7 +156,8 @@ AO_PASS vec3 ao_shade_leaf(ao_shade_constants c, uint index, uint normal_kind, a
         uint reflection = ao_load_word(material + uint(21));
         if (reflection != uint(0)) {
             vec2 uv = ao_equirectangular(ao_mirrored(s.to_eye, s.normal));
-            color = ao_sum(color, ao_product(specular, ao_load_map(reflection, uv, ao_load_real(material + uint(15)))));
+            vec4 seen = ao_sample_around(reflection - uint(1), uv, ao_load_real(material + uint(15)));
+            color = ao_sum(color, ao_product(specular, vec3(seen)));
         }
     }
     return color;

@@ -113,9 +113,8 @@ AO_PASS vec4 ao_bilinear(ao_texture_header t, real level, real u, real v)
 }
 
 // Trilinear. `footprint`: squared length of the longer screen derivative of uv; NaN, 0 and less mean the largest level.
-AO_PASS vec4 ao_sample(uint texture, vec2 uv, real footprint)
+AO_PASS vec4 ao_filtered(ao_texture_header t, vec2 uv, real footprint)
 {
-    ao_texture_header t = ao_load_texture(texture);
     real u = ao_wrapped_coordinate(uv.x, t.wrap_u);
     real v = ao_wrapped_coordinate(uv.y, t.wrap_v);
     real side = max(t.width, t.height);
@@ -132,4 +131,18 @@ AO_PASS vec4 ao_sample(uint texture, vec2 uv, real footprint)
         color = ao_lerp(color, ao_bilinear(t, mix(level, next, between), u, v), weight);
     }
     return color;
+}
+
+AO_PASS vec4 ao_sample(uint texture, vec2 uv, real footprint)
+{
+    return ao_filtered(ao_load_texture(texture), uv, footprint);
+}
+
+// A texture that goes around: an equirectangular picture, whatever its own modes are.
+AO_PASS vec4 ao_sample_around(uint texture, vec2 uv, real footprint)
+{
+    ao_texture_header t = ao_load_texture(texture);
+    t.wrap_u = uint(ao_wrap_repeat);
+    t.wrap_v = uint(ao_wrap_clamp);
+    return ao_filtered(t, uv, footprint);
 }
