@@ -33,4 +33,8 @@ constexpr int bytes_per_pixel(pixel_format format)
     }
 }
 
+// Depth of a d24 code is the code times this, rounded once: what llvmpipe and lavapipe compute (measured for all 2^24 codes). For
+// half of them that is not the float nearest to code / 16777215; hardware may deliver either.
+inline constexpr float d24_step = 1.0F / 16777215.0F;
+
 } // namespace ao

@@ -135,8 +135,8 @@ result<backend> backend::create(const options& o)
         const auto allowed = static_cast<int>(control::active_value(control::max_allowed_parallelism));
         const int threads = o.threads == 0 ? allowed : std::min(o.threads, allowed);
         std::unique_ptr<detail::machine> m(
-            new detail::machine{ lanes, detail::kernels_of(lanes), o.tile_width > 0 ? o.tile_width : 256,
-                                 o.tile_height > 0 ? o.tile_height : 16, oneapi::tbb::task_arena(threads) });
+            new detail::machine{ lanes, detail::kernels_of(lanes), o.tile_width > 0 ? o.tile_width : 64,
+                                 o.tile_height > 0 ? o.tile_height : 64, oneapi::tbb::task_arena(threads) });
         m->arena.initialize();
         return backend(std::move(m));
     } catch (...) {

@@ -59,10 +59,17 @@ struct linearize_resources {
         case pixel_format::rgba16f:
             return depth.half(pixel, 2);
         case pixel_format::d24:
-            return depth.unorm(pixel, 0, 24);
+            return depth24(pixel);
         default:
             return depth.loaded(pixel);
         }
+    }
+
+private:
+    Real depth24(ivec2 pixel) const
+    {
+        using integer = typename reader<Real>::integer;
+        return Real(depth.word(pixel, 0) & integer(0xffffff)) * Real(d24_step);
     }
 };
 

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -70,8 +71,13 @@ glm::vec<4, Real> decode_texel(const picture& p, std::size_t i)
         const auto code = p.texel<std::uint32_t>(i);
         return texel(ratio(code & 65535U, 65535), ratio(code >> 16U, 65535), Real(0), Real(0));
     }
-    case pixel_format::d24:
-        return texel(ratio(p.texel<std::uint32_t>(i) & 0xffffffU, 0xffffff), Real(0), Real(0), Real(0));
+    case pixel_format::d24: {
+        const std::uint32_t code = p.texel<std::uint32_t>(i) & 0xffffffU;
+        if constexpr (std::is_same_v<Real, float>) {
+            return texel(Real(code) * d24_step, Real(0), Real(0), Real(0));
+        }
+        return texel(ratio(code, 0xffffff), Real(0), Real(0), Real(0));
+    }
     case pixel_format::r8:
         return texel(ratio(static_cast<std::uint32_t>(p.texel<std::uint8_t>(i)), 255), Real(0), Real(0), Real(0));
     case pixel_format::rg32ui:
