@@ -20,17 +20,18 @@ struct frame_input {
     ao::camera camera;
 };
 
+// The near plane is close, so that even 24 and 32 bits of depth differ in some tap.
 frame_input base()
 {
     frame_input in;
     in.settings.radius = 0.8F;
-    in.settings.thickness = 3.0F;
+    in.settings.thickness = 1.0F;
     in.facts.width = width;
     in.facts.height = height;
     in.facts.depth = depth_source::hardware;
     in.facts.depth_format = pixel_format::d32f;
     in.facts.normal_format = pixel_format::rgba32f;
-    in.camera.projection = make_projection({ -0.7, 0.7, -0.525, 0.525, 0.25, 60 });
+    in.camera.projection = make_projection({ -0.7, 0.7, -0.525, 0.525, 0.02, 60 });
     return in;
 }
 
@@ -105,12 +106,14 @@ TEST_CASE("every setting, fact and part of the camera changes the picture on eve
 {
     for (const auto& runner : usual_runners()) {
         const picture before = run(*runner, base());
-        CHECK(run(*runner, base()).bytes == before.bytes);
+        const bool repeated = run(*runner, base()).bytes == before.bytes;
+        CHECK(repeated);
         for (const change& each : changes) {
             frame_input in = base();
             each.apply(in);
             INFO(runner->name() << ": " << each.name);
-            CHECK(run(*runner, in).bytes != before.bytes);
+            const bool changed = run(*runner, in).bytes != before.bytes;
+            CHECK(changed);
         }
     }
 }
@@ -123,6 +126,7 @@ TEST_CASE("world normals are those of view space once they are turned")
         // The identity takes the same road and must arrive at the same bits.
         in.facts.world_normals = true;
         INFO(runner->name());
-        CHECK(run(*runner, in).bytes == before.bytes);
+        const bool unchanged = run(*runner, in).bytes == before.bytes;
+        CHECK(unchanged);
     }
 }
