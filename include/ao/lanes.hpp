@@ -155,7 +155,7 @@ struct real_traits<lanes<float, N, Tag>> {
         // Whole numbers from 2^23 on are left as they are; below, truncation and one step down for negative fractions.
         const real whole = real(integer(::ao::select(real(0), x, small(x))));
         const real lower = ::ao::select(whole, whole - real(1), whole > x);
-        return ::ao::select(x, lower, small(x));
+        return ::ao::select(x, lower, small(x) && whole != x); // -0 stays -0
     }
     static constexpr real abs(real x) { return ::ao::select(x + real(0), -x, x < real(0)); }
     static constexpr real min(real a, real b) { return ::ao::select(a, b, b < a); }

@@ -50,7 +50,7 @@ inline constexpr float max_eye_depth = 1e30F;
 // What may change every frame.
 struct camera {
     camera_projection projection;
-    matrix3 normal_to_view;           // a rotation, used where facts::world_normals
+    matrix3 normal_to_view{};         // a rotation, used where facts::world_normals
     float background = max_eye_depth; // eye depths from here on are background
 };
 

@@ -18,7 +18,8 @@ static_assert(ao::half_to_float(0x7e00) != ao::half_to_float(0x7e00));
 static_assert(ao::float_to_half(1.0F) == 0x3c00 && ao::float_to_half(-0.0F) == 0x8000 && ao::float_to_half(65504.0F) == 0x7bff);
 // Ties to even, and the ends of the range.
 static_assert(ao::float_to_half(1.00048828125F) == 0x3c00 && ao::float_to_half(1.00146484375F) == 0x3c02);
-static_assert(ao::float_to_half(65519.99F) == 0x7bff && ao::float_to_half(65520.0F) == 0x7c00 && ao::float_to_half(1e30F) == 0x7c00);
+static_assert(ao::float_to_half(65519.99F) == 0x7bff && ao::float_to_half(65520.0F) == 0x7c00 &&
+              ao::float_to_half(1e30F) == 0x7c00);
 static_assert(ao::float_to_half(2.98e-8F) == 0x0000 && ao::float_to_half(2.99e-8F) == 0x0001);
 static_assert(ao::float_to_half(6.1e-5F) == 0x03ff && ao::float_to_half(6.1032e-5F) == 0x0400);
 static_assert(ao::float_to_half(-std::numeric_limits<float>::infinity()) == 0xfc00);

@@ -35,7 +35,8 @@ struct suite {
     static constexpr bool every_helper(const vec3& n)
     {
         Real worst = 0;
-        for (const vec3& helper : { n, -n, vec3(0, 0, 0), vec3(Real(1e-18), 0, 0), vec3(Real(1e18), 0, 0), vec3(1, 0, 0), vec3(Real(-0.7), Real(0.2), 0), n + vec3(Real(1e-6), 0, 0), n + vec3(0, Real(0.06), 0) }) {
+        for (const vec3& helper : { n, -n, vec3(0, 0, 0), vec3(Real(1e-18), 0, 0), vec3(Real(1e18), 0, 0), vec3(1, 0, 0),
+                                    vec3(Real(-0.7), Real(0.2), 0), n + vec3(Real(1e-6), 0, 0), n + vec3(0, Real(0.06), 0) }) {
             const Real e = gram_schmidt_error(n, helper);
             worst = e > worst ? e : worst;
         }
@@ -50,7 +51,8 @@ struct suite {
 
     // Away from the fallback the tangent is the helper without its part along the normal.
     static constexpr typename m::ao_frame plain = m::ao_gram_schmidt(vec3(0, 0, 1), vec3(Real(0.5), 0, Real(0.25)));
-    static_assert(equal(plain.tangent, vec3(1, 0, 0)) && equal(plain.bitangent, vec3(0, 1, 0)) && equal(plain.normal, vec3(0, 0, 1)));
+    static_assert(equal(plain.tangent, vec3(1, 0, 0)) && equal(plain.bitangent, vec3(0, 1, 0)) &&
+                  equal(plain.normal, vec3(0, 0, 1)));
     // Parallel: the fallback.
     static_assert(equal(m::ao_gram_schmidt(vec3(0, 0, 1), vec3(0, 0, 1)).tangent, m::ao_any_tangent(vec3(0, 0, 1))));
 };

@@ -35,10 +35,12 @@ static_assert(all_inside(ao::kernel_type::halton, 1, in_half_ball));
 
 // u = 1/2, v = 1/3, w = 1/5: (1/3) (cos pi sqrt(4/5), sin pi sqrt(4/5), sqrt(1/5)).
 constexpr glm::vec4 first = ao::make_kernel(ao::kernel_type::halton, 1, 1)[0];
-static_assert(near(first.x, -0.29814239699997197F, 1e-7F) && near(first.y, 0.0F, 1e-7F) && near(first.z, 0.14907119849998598F, 1e-7F));
+static_assert(near(first.x, -0.29814239699997197F, 1e-7F) && near(first.y, 0.0F, 1e-7F) &&
+              near(first.z, 0.14907119849998598F, 1e-7F));
 // u = 1/4, v = 2/3, w = 2/5: (2/3) (0, sqrt(3/5), sqrt(2/5)).
 constexpr glm::vec4 second = ao::make_kernel(ao::kernel_type::halton, 2, 1)[1];
-static_assert(near(second.x, 0.0F, 1e-7F) && near(second.y, 0.51639777949432220F, 1e-7F) && near(second.z, 0.42163702135578396F, 1e-7F));
+static_assert(near(second.x, 0.0F, 1e-7F) && near(second.y, 0.51639777949432220F, 1e-7F) &&
+              near(second.z, 0.42163702135578396F, 1e-7F));
 
 constexpr bool same(const glm::vec4& a, const glm::vec4& b)
 {
@@ -46,7 +48,8 @@ constexpr bool same(const glm::vec4& a, const glm::vec4& b)
 }
 // The seed matters to the random kernels and to them only; more taps continue the Halton sequence.
 static_assert(!same(ao::make_kernel(ao::kernel_type::box, 1, 1)[0], ao::make_kernel(ao::kernel_type::box, 1, 2)[0]));
-static_assert(!same(ao::make_kernel(ao::kernel_type::hemisphere, 1, 1)[0], ao::make_kernel(ao::kernel_type::hemisphere, 1, 2)[0]));
+static_assert(!same(ao::make_kernel(ao::kernel_type::hemisphere, 1, 1)[0],
+                    ao::make_kernel(ao::kernel_type::hemisphere, 1, 2)[0]));
 static_assert(same(ao::make_kernel(ao::kernel_type::halton, 1, 1)[0], ao::make_kernel(ao::kernel_type::halton, 1, 2)[0]));
 static_assert(same(ao::make_kernel(ao::kernel_type::halton, 4, 1)[3], ao::make_kernel(ao::kernel_type::halton, 5, 1)[3]));
 
@@ -56,7 +59,8 @@ static_assert(near(ao::cosine_linear_offset(0.3, 1, 1).z, 1.0F, 1e-7F));
 static_assert(ao::cosine_linear_offset(0.9, 0.999, 0).z == 0.0F);
 
 static_assert(ao::half_ball_offset(0.4, 0.5, 0).z == 0.0F && near(ao::half_ball_offset(0.4, 0.125, 1).z, 0.5F, 1e-7F));
-static_assert(near(ao::detail::cube_root(0.001), 0.1, 1e-15) && ao::detail::cube_root(1.0) == 1.0 && ao::detail::cube_root(0.0) == 0.0);
+static_assert(near(ao::detail::cube_root(0.001), 0.1, 1e-15) && ao::detail::cube_root(1.0) == 1.0 &&
+              ao::detail::cube_root(0.0) == 0.0);
 
 static_assert(near(static_cast<float>(ao::detail::sine(1.0)), 0.8414709848F, 1e-7F) &&
               near(static_cast<float>(ao::detail::cosine(1.0)), 0.5403023059F, 1e-7F));

@@ -118,7 +118,8 @@ constexpr ao::facts positions = scene_with([](auto& f) {
     f.depth = ao::depth_source::position;
     f.depth_format = ao::pixel_format::rgba16f;
 });
-static_assert(runs(planned(unfiltered, positions), { linearize, occlusion }) && planned(unfiltered, positions).passes[0].options.affine);
+static_assert(runs(planned(unfiltered, positions), { linearize, occlusion }) &&
+              planned(unfiltered, positions).passes[0].options.affine);
 
 // No stored normals: none is bound, and nothing is turned.
 constexpr ao::facts bare = scene_with([](auto& f) {
@@ -159,7 +160,10 @@ constexpr bool camera_keeps_structure()
 }
 static_assert(camera_keeps_structure());
 
-constexpr ao::plan changed(ao::settings s) { return planned(s, scene()); }
+constexpr ao::plan changed(ao::settings s)
+{
+    return planned(s, scene());
+}
 static_assert(ao::same_structure(filtered, changed(with([](auto& s) { s.radius = 9; }))));
 static_assert(ao::same_structure(filtered, changed(with([](auto& s) { s.bias = 9; }))));
 static_assert(!ao::same_structure(filtered, changed(with([](auto& s) { s.taps = 9; }))));
@@ -181,8 +185,11 @@ static_assert(refused({}, {}, view(), invalid_size));
 static_assert(refused({}, scene_with([](auto& f) { f.width = 65537; }), view(), invalid_size));
 static_assert(refused({}, scene_with([](auto& f) { f.height = -1; }), view(), invalid_size));
 static_assert(refused({}, scene_with([](auto& f) { f.depth_format = ao::pixel_format::rgba16f; }), view(), unsupported_format));
-static_assert(refused({}, scene_with([](auto& f) { f.depth = ao::depth_source::hardware; f.depth_format = ao::pixel_format::rg16; }), view(),
-                      unsupported_format));
+static_assert(refused({}, scene_with([](auto& f) {
+                          f.depth = ao::depth_source::hardware;
+                          f.depth_format = ao::pixel_format::rg16;
+                      }),
+                      view(), unsupported_format));
 static_assert(refused({}, scene_with([](auto& f) { f.depth = ao::depth_source::position; }), view(), unsupported_format));
 static_assert(refused({}, scene_with([](auto& f) { f.normal_format = ao::pixel_format::rg16; }), view(), unsupported_format));
 static_assert(refused({}, scene_with([](auto& f) { f.normals = ao::normal_source::octahedral; }), view(), unsupported_format));
@@ -195,7 +202,8 @@ static_assert(refused({}, scene(), { view().projection, {}, std::numeric_limits<
 static_assert(refused({}, scene(), { { ao::matrix4::zero(), {}, {} }, {}, 1.0F }, invalid_projection));
 
 // Constants structs: reals only, a multiple of four.
-static_assert(sizeof(ao::linearize_constants) == 32 && sizeof(ao::occlusion_constants) == 112 && sizeof(ao::filter_constants) == 16);
+static_assert(sizeof(ao::linearize_constants) == 32 && sizeof(ao::occlusion_constants) == 112 &&
+              sizeof(ao::filter_constants) == 16);
 static_assert(sizeof(ao::occlusion_pass<double, ao::no_resources>::ao_occlusion_constants) == 224);
 
 } // namespace

@@ -110,8 +110,8 @@ static_assert(refused(changed(2, 2, 0.0F, true)));
 static_assert(refused(changed(0, 1, 0.1F)) && refused(changed(1, 0, 0.1F)));
 static_assert(refused(changed(0, 3, 0.1F)) && refused(changed(0, 2, 0.1F, true)));
 static_assert(refused(changed(3, 0, 0.1F)) && refused(changed(3, 1, 0.1F)));
-static_assert(refused(changed(3, 2, 1.0F)));  // w = +z: looks along +Z
-static_assert(refused(changed(3, 3, 1.0F)));  // neither perspective nor parallel
+static_assert(refused(changed(3, 2, 1.0F))); // w = +z: looks along +Z
+static_assert(refused(changed(3, 3, 1.0F))); // neither perspective nor parallel
 static_assert(refused(changed(3, 3, -1.0F, true)));
 static_assert(refused(changed(3, 2, 0.0F))); // w = 0
 static_assert(refused({ ao::matrix4::zero(), {}, {} }));
@@ -130,8 +130,8 @@ static_assert([] {
 using m = ao::math<float>;
 constexpr m::ao_depth_decode decode = ao::fold_projection(ao::make_projection({}), 64, 48, 50.0F)->decode;
 static_assert(m::ao_eye_depth(decode, m::vec2(0.5F, 0.5F), decode.cleared, false) == 0.0F);
-static_assert(m::ao_eye_depth(decode, m::vec2(0.5F, 0.5F), 2.0F, false) == 0.0F);      // beyond infinity
-static_assert(m::ao_eye_depth(decode, m::vec2(0.5F, 0.5F), 0.9999F, false) == 0.0F);   // beyond `background`
+static_assert(m::ao_eye_depth(decode, m::vec2(0.5F, 0.5F), 2.0F, false) == 0.0F);    // beyond infinity
+static_assert(m::ao_eye_depth(decode, m::vec2(0.5F, 0.5F), 0.9999F, false) == 0.0F); // beyond `background`
 static_assert(m::ao_eye_depth(decode, m::vec2(0.5F, 0.5F), 0.9F, false) > 0.9F);
 
 // Shared constants hold reals only, a multiple of four of them.

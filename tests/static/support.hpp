@@ -40,7 +40,8 @@ constexpr Real frame_error(const typename ao::math<Real>::ao_frame& f)
     Real worst = 0;
     for (const Real e : { dot(t, t) - 1, dot(b, b) - 1, dot(n, n) - 1, dot(t, b), dot(t, n), dot(b, n), handed - 1 }) {
         const Real size = e < 0 ? -e : e;
-        worst = size <= worst ? worst : (size < std::numeric_limits<Real>::infinity() ? size : std::numeric_limits<Real>::infinity());
+        worst =
+            size <= worst ? worst : (size < std::numeric_limits<Real>::infinity() ? size : std::numeric_limits<Real>::infinity());
     }
     return worst;
 }

@@ -1,6 +1,8 @@
 // Vector functions as constant expressions. NaN and infinity are no results of those: tests/unit/core_frame.cpp.
 #include "static/support.hpp"
 
+#include <bit>
+
 namespace {
 
 using namespace static_test;
@@ -35,7 +37,11 @@ struct suite {
 
     static_assert(m::sqrt(Real(2)) * m::sqrt(Real(2)) - 2 <= 4 * epsilon<Real> && m::sqrt(Real(1.5625)) == Real(1.25));
     static_assert(m::sqrt(Real(0)) == 0 && m::sqrt(inf) == inf);
-    static_assert(m::floor(Real(-0.5)) == -1 && m::floor(Real(2.75)) == 2 && m::floor(Real(-3)) == -3 && m::floor(Real(1e20)) == Real(1e20));
+    static_assert(m::floor(Real(-0.5)) == -1 && m::floor(Real(2.75)) == 2 && m::floor(Real(-3)) == -3 &&
+                  m::floor(Real(1e20)) == Real(1e20));
+    // The sign of -0 survives, as it does at run time.
+    using bits = std::array<unsigned char, sizeof(Real)>;
+    static_assert(std::bit_cast<bits>(m::floor(-Real(0))) == std::bit_cast<bits>(-Real(0)));
     static_assert(m::abs(Real(-2)) == 2 && m::abs(Real(2)) == 2);
     static_assert(m::min(Real(1), Real(2)) == 1 && m::max(Real(1), Real(2)) == 2);
     static_assert(m::mix(Real(1), Real(2), true) == 2 && m::mix(Real(1), Real(2), false) == 1);

@@ -82,7 +82,8 @@ TEMPLATE_TEST_CASE("The filter keeps constants, background and bounds", "[core][
     {
         for (const float c : { 0.0F, 1.0F, 0.5F, 1.0F / 3, 0.7F, 1e-3F }) {
             for (const int size : { 1, 3, 5, 7 }) {
-                for (const float v : run_filter<TestType>(std::vector<float>(static_cast<std::size_t>(width * height), c), width, height, size)) {
+                for (const float v :
+                     run_filter<TestType>(std::vector<float>(static_cast<std::size_t>(width * height), c), width, height, size)) {
                     CHECK(v >= std::nextafter(c, -1.0F));
                     CHECK(v <= std::nextafter(c, 2.0F));
                     CHECK(v <= 1.0F);

@@ -70,8 +70,10 @@ TEST_CASE("Normalised integers: ends, nearest code, and what is no number", "[co
             REQUIRE(ao::unorm_code(static_cast<double>(value), top) == code);
             REQUIRE(ao::math<float>::ao_unorm_code(value, static_cast<float>(top)) == static_cast<float>(code));
             // One unit off in the last place, as a reciprocal multiply may be.
-            REQUIRE(ao::math<float>::ao_unorm_code(std::nextafter(value, 2.0F), static_cast<float>(top)) == static_cast<float>(code));
-            REQUIRE(ao::math<float>::ao_unorm_code(std::nextafter(value, -1.0F), static_cast<float>(top)) == static_cast<float>(code));
+            REQUIRE(ao::math<float>::ao_unorm_code(std::nextafter(value, 2.0F), static_cast<float>(top)) ==
+                    static_cast<float>(code));
+            REQUIRE(ao::math<float>::ao_unorm_code(std::nextafter(value, -1.0F), static_cast<float>(top)) ==
+                    static_cast<float>(code));
         }
     }
 }

@@ -19,7 +19,8 @@ constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 double frame_error(const double* f)
 {
     const auto dot = [&](int a, int b) { return f[a] * f[b] + f[a + 1] * f[b + 1] + f[a + 2] * f[b + 2]; };
-    const double handed = f[6] * (f[1] * f[5] - f[2] * f[4]) + f[7] * (f[2] * f[3] - f[0] * f[5]) + f[8] * (f[0] * f[4] - f[1] * f[3]);
+    const double handed =
+        f[6] * (f[1] * f[5] - f[2] * f[4]) + f[7] * (f[2] * f[3] - f[0] * f[5]) + f[8] * (f[0] * f[4] - f[1] * f[3]);
     double worst = 0;
     for (const double e : { dot(0, 0) - 1, dot(3, 3) - 1, dot(6, 6) - 1, dot(0, 3), dot(0, 6), dot(3, 6), handed - 1 }) {
         worst = std::abs(e) <= worst ? worst : (std::isfinite(e) ? std::abs(e) : std::numeric_limits<double>::infinity());
@@ -46,8 +47,8 @@ double worst_any_tangent(const std::vector<std::array<float, 3>>& normals)
 
 } // namespace
 
-TEMPLATE_TEST_CASE("any tangent is orthonormal to every normal, both poles and both zeros", "[core][frame]", float, double, lanes4,
-                   lanes8, lanes16)
+TEMPLATE_TEST_CASE("any tangent is orthonormal to every normal, both poles and both zeros", "[core][frame]", float, double,
+                   lanes4, lanes8, lanes16)
 {
     std::vector<std::array<float, 3>> normals;
     for (const float one : { 1.0F, -1.0F }) {
@@ -74,7 +75,9 @@ TEMPLATE_TEST_CASE("Gram-Schmidt is orthonormal for all pairs", "[core][frame]",
 {
     using m = ao::math<TestType>;
     std::vector<std::array<float, 6>> pairs;
-    const auto add = [&](const std::array<float, 3>& n, float x, float y, float z) { pairs.push_back({ n[0], n[1], n[2], x, y, z }); };
+    const auto add = [&](const std::array<float, 3>& n, float x, float y, float z) {
+        pairs.push_back({ n[0], n[1], n[2], x, y, z });
+    };
     directions random(11);
     std::mt19937 engine(13);
     std::uniform_real_distribution<float> signed_unit(-1.0F, 1.0F);
@@ -97,8 +100,8 @@ TEMPLATE_TEST_CASE("Gram-Schmidt is orthonormal for all pairs", "[core][frame]",
     }
     const auto frames = evaluate<TestType>(pairs, [](const std::array<TestType, 6>& in) {
         const auto f = m::ao_gram_schmidt(typename m::vec3(in[0], in[1], in[2]), typename m::vec3(in[3], in[4], in[5]));
-        return std::array{ f.tangent.x, f.tangent.y, f.tangent.z, f.bitangent.x, f.bitangent.y,
-                           f.bitangent.z, f.normal.x, f.normal.y, f.normal.z };
+        return std::array{ f.tangent.x,   f.tangent.y, f.tangent.z, f.bitangent.x, f.bitangent.y,
+                           f.bitangent.z, f.normal.x,  f.normal.y,  f.normal.z };
     });
     double worst = 0;
     for (const auto& frame : frames) {
@@ -134,13 +137,15 @@ TEMPLATE_TEST_CASE("Normalising is defined for every vector", "[core][frame]", f
     const float lowest = std::numeric_limits<float>::denorm_min();
     const float highest = std::numeric_limits<float>::max();
     std::vector<std::array<float, 3>> vectors;
-    for (const float x : { 0.0F, -0.0F, lowest, 1e-38F, 1e-30F, 1e-16F, 1e-14F, 1.0F, -3.0F, 1e14F, 1e16F, 1e30F, highest, inf, -inf, not_a_number }) {
+    for (const float x : { 0.0F, -0.0F, lowest, 1e-38F, 1e-30F, 1e-16F, 1e-14F, 1.0F, -3.0F, 1e14F, 1e16F, 1e30F, highest, inf,
+                           -inf, not_a_number }) {
         vectors.push_back({ x, 0, 0 });
         vectors.push_back({ x, x, x });
         vectors.push_back({ 1, 0, x });
     }
     const auto units = evaluate<TestType>(vectors, [](const std::array<TestType, 3>& in) {
-        return parts(m::ao_normalize_or(typename m::vec3(in[0], in[1], in[2]), typename m::vec3(TestType(0), TestType(0), TestType(1))));
+        return parts(
+            m::ao_normalize_or(typename m::vec3(in[0], in[1], in[2]), typename m::vec3(TestType(0), TestType(0), TestType(1))));
     });
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         const auto x = static_cast<double>(vectors[i][0]);

@@ -31,7 +31,8 @@ std::vector<double> inverses(int base, const std::vector<std::uint32_t>& indices
     constexpr auto width = static_cast<std::size_t>(width_of<Real>);
     std::vector<double> results;
     for (std::size_t start = 0; start < indices.size(); start += width) {
-        const uint packed = each<uint>([&](int i) { return indices[std::min(start + static_cast<std::size_t>(i), indices.size() - 1)]; });
+        const uint packed =
+            each<uint>([&](int i) { return indices[std::min(start + static_cast<std::size_t>(i), indices.size() - 1)]; });
         const Real x = ao::math<Real>::ao_radical_inverse(base, packed);
         for (std::size_t i = 0; i < width && start + i < indices.size(); ++i) {
             results.push_back(static_cast<double>(at(x, static_cast<int>(i))));
@@ -57,7 +58,8 @@ std::vector<std::uint32_t> interesting(int base)
 
 } // namespace
 
-TEMPLATE_TEST_CASE("Radical inverses are within 5e-7 of the exact ones below 2^22", "[core][halton]", float, double, lanes4, lanes8, lanes16)
+TEMPLATE_TEST_CASE("Radical inverses are within 5e-7 of the exact ones below 2^22", "[core][halton]", float, double, lanes4,
+                   lanes8, lanes16)
 {
     for (const int base : bases) {
         const auto indices = interesting(base);
@@ -136,7 +138,8 @@ TEST_CASE("Sequences of the bases in use are uncorrelated at the counts in use",
 TEST_CASE("Every elementary interval holds exactly one point", "[core][halton]")
 {
     // Of any base_a^i base_b^j consecutive points, each box of sides base_a^-i, base_b^-j holds one.
-    const auto pair = GENERATE(std::array{ 2, 3 }, std::array{ 3, 5 }, std::array{ 2, 5 }, std::array{ 7, 11 }, std::array{ 11, 13 });
+    const auto pair =
+        GENERATE(std::array{ 2, 3 }, std::array{ 3, 5 }, std::array{ 2, 5 }, std::array{ 7, 11 }, std::array{ 11, 13 });
     const int columns = pair[0] * pair[0] * (pair[0] == 2 ? 2 : 1);
     const int rows = pair[1] * (pair[1] == 3 ? 3 : 1);
     const auto count = static_cast<std::uint32_t>(columns * rows);

@@ -38,15 +38,16 @@ std::vector<disc_point> random_directions(int count, ao::random_stream& random)
 {
     std::vector<disc_point> points;
     for (int i = 0; i < count; ++i) {
-        const glm::dvec3 s(ao::cosine_linear_offset(static_cast<double>(random.uniform()), 1.0, static_cast<double>(random.uniform())));
+        const glm::dvec3 s(
+            ao::cosine_linear_offset(static_cast<double>(random.uniform()), 1.0, static_cast<double>(random.uniform())));
         points.push_back({ s.x, s.y });
     }
     return points;
 }
 
 struct error_law {
-    double slope;    // of log RMSE against log N
-    double at_16;    // RMSE
+    double slope; // of log RMSE against log N
+    double at_16; // RMSE
 };
 
 // N = 16 ... 512; `points` is asked anew for every problem.

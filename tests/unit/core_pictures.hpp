@@ -12,6 +12,8 @@
 
 #include <algorithm>
 #include <functional>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace core_test {
@@ -24,7 +26,10 @@ struct pictures {
     std::vector<glm::vec3> normals; // view space
 
     pictures(int w, int h, float d = 0.0F, glm::vec3 n = { 0, 0, 1 })
-        : width(w), height(h), depth(static_cast<std::size_t>(w * h), d), normals(depth.size(), n)
+        : width(w),
+          height(h),
+          depth(static_cast<std::size_t>(w * h), d),
+          normals(depth.size(), n)
     {
     }
     std::size_t index(int x, int y) const
@@ -44,7 +49,9 @@ struct picture_resources {
     std::function<void(std::size_t)> on_normal;
 
     picture_resources(const pictures& p, const ao::settings& s)
-        : source(&p), kernel(ao::make_kernel(s.kernel, s.taps, s.seed)), tile(ao::make_rotation_tile(s.seed))
+        : source(&p),
+          kernel(ao::make_kernel(s.kernel, s.taps, s.seed)),
+          tile(ao::make_rotation_tile(s.seed))
     {
     }
     std::size_t index(const typename m::ivec2& pixel, int i) const { return source->index(at(pixel.x, i), at(pixel.y, i)); }
@@ -71,7 +78,8 @@ struct picture_resources {
     typename m::vec2 rotation(typename m::ivec2 texel) const
     {
         const auto part = [&](int k) {
-            return each<Real>([&](int i) { return tile[static_cast<std::size_t>(at(texel.y, i) * ao::tile_size + at(texel.x, i))][k]; });
+            return each<Real>(
+                [&](int i) { return tile[static_cast<std::size_t>(at(texel.y, i) * ao::tile_size + at(texel.x, i))][k]; });
         };
         return { part(0), part(1) };
     }
@@ -140,14 +148,18 @@ struct filter_resources {
     const std::vector<float>* source;
     const std::vector<glm::vec2>* sums;
 
-    std::size_t index(const typename m::ivec2& p, int i) const { return static_cast<std::size_t>(at(p.y, i) * width + at(p.x, i)); }
+    std::size_t index(const typename m::ivec2& p, int i) const
+    {
+        return static_cast<std::size_t>(at(p.y, i) * width + at(p.x, i));
+    }
     Real visibility(typename m::ivec2 pixel) const
     {
         return each<Real>([&](int i) { return (*source)[index(pixel, i)]; });
     }
     typename m::vec2 row_sum(typename m::ivec2 pixel) const
     {
-        return { each<Real>([&](int i) { return (*sums)[index(pixel, i)].x; }), each<Real>([&](int i) { return (*sums)[index(pixel, i)].y; }) };
+        return { each<Real>([&](int i) { return (*sums)[index(pixel, i)].x; }),
+                 each<Real>([&](int i) { return (*sums)[index(pixel, i)].y; }) };
     }
 };
 
@@ -164,7 +176,8 @@ std::vector<float> run_filter(const std::vector<float>& raw, int width, int heig
     for_each_pixel<Real>(width, height, [&](int x, int y, const typename ao::math<Real>::ivec2& pixel) {
         const auto sum = body.ao_filter_rows_pass(constants, pixel);
         for (int i = 0; i < width_of<Real> && x + i < width; ++i) {
-            sums[static_cast<std::size_t>(y * width + x + i)] = { static_cast<float>(at(sum.x, i)), static_cast<float>(at(sum.y, i)) };
+            sums[static_cast<std::size_t>(y * width + x + i)] = { static_cast<float>(at(sum.x, i)),
+                                                                  static_cast<float>(at(sum.y, i)) };
         }
     });
     for_each_pixel<Real>(width, height, [&](int x, int y, const typename ao::math<Real>::ivec2& pixel) {
@@ -186,7 +199,11 @@ inline ao::plan plan_for(const pictures& p, const ao::settings& s, const ao::cam
     f.normals = normals;
     f.normal_format = ao::pixel_format::rgba32f;
     f.parallel = parallel;
-    return *ao::make_plan(s, f, view);
+    const auto made = ao::make_plan(s, f, view);
+    if (!made) {
+        throw std::logic_error(std::string(made.error().reason())); // a fault of the test
+    }
+    return *made;
 }
 
 // Symmetric camera with square pixels; `extent`: half the picture's height at distance 1 (in scene units if parallel).

@@ -11,9 +11,16 @@ using namespace core_test;
 
 namespace {
 
-const float poisons[] = { std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
-                          -std::numeric_limits<float>::infinity(), 1e38F, -1e38F, std::numeric_limits<float>::max(),
-                          1e-41F, 0.0F, -0.0F, -1.0F };
+const float poisons[] = { std::numeric_limits<float>::quiet_NaN(),
+                          std::numeric_limits<float>::infinity(),
+                          -std::numeric_limits<float>::infinity(),
+                          1e38F,
+                          -1e38F,
+                          std::numeric_limits<float>::max(),
+                          1e-41F,
+                          0.0F,
+                          -0.0F,
+                          -1.0F };
 
 struct outcome {
     std::vector<float> visibility;

@@ -45,7 +45,8 @@ constexpr int conventions = 96;
 
 } // namespace
 
-TEMPLATE_TEST_CASE("Reconstructing and projecting comes back to the pixel within .01", "[core][projection]", float, double, lanes8)
+TEMPLATE_TEST_CASE("Reconstructing and projecting comes back to the pixel within .01", "[core][projection]", float, double,
+                   lanes8)
 {
     using m = ao::math<TestType>;
     const int width = 1920;
@@ -62,7 +63,8 @@ TEMPLATE_TEST_CASE("Reconstructing and projecting comes back to the pixel within
         const convention c = convention_of(bits, 0.1, 1000);
         const auto folded = ao::fold_projection(c.camera, width, height);
         REQUIRE(folded);
-        const auto p = ao::convert_constants<typename m::ao_projection, TestType, ao::math<float>::ao_projection, float>(folded->projection);
+        const auto p =
+            ao::convert_constants<typename m::ao_projection, TestType, ao::math<float>::ao_projection, float>(folded->projection);
         const auto outputs = evaluate<TestType>(inputs, [&](const std::array<TestType, 3>& in) {
             const auto point = m::ao_view_point(p, typename m::vec2(in[0], in[1]), in[2], c.parallel);
             const auto pixel = m::ao_to_pixel(p, point, c.parallel);
@@ -149,8 +151,8 @@ TEST_CASE("A stored depth comes back within what the plan adds to the bias", "[c
         using body = ao::linearize_pass<float, resource>;
         body pass{ { &packed } };
         pass.ao_affine = linearize.options.affine;
-        const auto constants =
-            ao::convert_constants<body::ao_depth_decode, float, ao::linearize_constants, float>(ao::constants_of<ao::linearize_constants>(linearize));
+        const auto constants = ao::convert_constants<body::ao_depth_decode, float, ao::linearize_constants, float>(
+            ao::constants_of<ao::linearize_constants>(linearize));
         double worst = 0;
         for (int y = 0; y < height; ++y) {
             for (int x = 0; x < width; ++x) {
@@ -160,8 +162,9 @@ TEST_CASE("A stored depth comes back within what the plan adds to the bias", "[c
                     CHECK(d == 0);
                     continue;
                 }
-                const double allowed = static_cast<double>(bias.bias) - static_cast<double>(ao::settings().bias) +
-                                       truth * (static_cast<double>(bias.bias_linear) + truth * static_cast<double>(bias.bias_quadratic));
+                const double allowed =
+                    static_cast<double>(bias.bias) - static_cast<double>(ao::settings().bias) +
+                    truth * (static_cast<double>(bias.bias_linear) + truth * static_cast<double>(bias.bias_quadratic));
                 // The bias covers the pixel's error and the tap's.
                 worst = std::max(worst, std::abs(d - truth) / (allowed / 2));
             }

@@ -23,10 +23,22 @@ template <class T, int N, class Tag>
 inline constexpr int width_of<ao::lanes<T, N, Tag>> = N;
 
 // Value i of x.
-inline float at(float x, int) { return x; }
-inline double at(double x, int) { return x; }
-inline std::int32_t at(std::int32_t x, int) { return x; }
-inline std::uint32_t at(std::uint32_t x, int) { return x; }
+inline float at(float x, int)
+{
+    return x;
+}
+inline double at(double x, int)
+{
+    return x;
+}
+inline std::int32_t at(std::int32_t x, int)
+{
+    return x;
+}
+inline std::uint32_t at(std::uint32_t x, int)
+{
+    return x;
+}
 template <class T, int N, class Tag>
 T at(const ao::lanes<T, N, Tag>& x, int i)
 {

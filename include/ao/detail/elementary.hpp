@@ -69,7 +69,7 @@ constexpr float floor(float x)
             return x;
         }
         const float whole = static_cast<float>(static_cast<int>(x));
-        return whole > x ? whole - 1.0F : whole;
+        return whole == x ? x : whole > x ? whole - 1.0F : whole; // -0 stays -0
     }
     return std::floor(x);
 }
@@ -81,7 +81,7 @@ constexpr double floor(double x)
             return x;
         }
         const auto whole = static_cast<double>(static_cast<long long>(x));
-        return whole > x ? whole - 1.0 : whole;
+        return whole == x ? x : whole > x ? whole - 1.0 : whole;
     }
     return std::floor(x);
 }
