@@ -7,26 +7,45 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <optional>
 #include <string>
 
 namespace vk_runner {
 
-inline ao::vk::context context_of(ao::host::vulkan_device& device, ao::vk::group_size group = {})
+// Which of the backend's shaders run: those for the device's type, or those for a GPU on whatever device.
+enum class shaders { of_device, of_gpu };
+
+inline void VKAPI_PTR gpu_properties(VkPhysicalDevice device, VkPhysicalDeviceProperties* properties)
+{
+    vkGetPhysicalDeviceProperties(device, properties);
+    properties->deviceType = VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU;
+}
+
+inline PFN_vkVoidFunction VKAPI_PTR gpu_loader(VkInstance instance, const char* name)
+{
+    if (std::strcmp(name, "vkGetPhysicalDeviceProperties") == 0) {
+        return reinterpret_cast<PFN_vkVoidFunction>(gpu_properties);
+    }
+    return vkGetInstanceProcAddr(instance, name);
+}
+
+inline ao::vk::context context_of(ao::host::vulkan_device& device, ao::vk::group_size group = {},
+                                  shaders which = shaders::of_device)
 {
     ao::vk::context c;
     c.instance = device.instance;
     c.physical_device = device.physical;
     c.device = device.device;
-    c.get_instance_proc_addr = vkGetInstanceProcAddr;
+    c.get_instance_proc_addr = which == shaders::of_gpu ? gpu_loader : vkGetInstanceProcAddr;
     c.group = group;
     return c;
 }
 
 inline ao::host::vulkan_image upload(ao::host::vulkan_device& device, const ao::picture& p, VkImageLayout layout)
 {
-    auto image = ao::host::vulkan_image::create(
-        device, p.format, { static_cast<unsigned>(p.width), static_cast<unsigned>(p.height) });
+    auto image =
+        ao::host::vulkan_image::create(device, p.format, { static_cast<unsigned>(p.width), static_cast<unsigned>(p.height) });
     if (!image || !image->upload(p.bytes, layout)) {
         std::abort();
     }
@@ -40,9 +59,10 @@ struct outcome {
 };
 
 inline outcome run(ao::host::vulkan_device& device, const ao::settings& s, const ao::facts& f, const ao::camera& view,
-                   const ao::picture& depth, const ao::picture& normal, ao::vk::group_size group = {})
+                   const ao::picture& depth, const ao::picture& normal, ao::vk::group_size group = {},
+                   shaders which = shaders::of_device)
 {
-    auto backend = ao::vk::backend::create(context_of(device, group));
+    auto backend = ao::vk::backend::create(context_of(device, group, which));
     if (!backend) {
         return { {}, std::string(backend.error().reason()) };
     }

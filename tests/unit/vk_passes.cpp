@@ -46,13 +46,13 @@ struct normal_kind {
 };
 
 constexpr depth_kind depth_kinds[] = {
-    { depth_source::linear, pixel_format::r32f },     { depth_source::hardware, pixel_format::d32f },
-    { depth_source::hardware, pixel_format::d24 },    { depth_source::hardware, pixel_format::r32f },
+    { depth_source::linear, pixel_format::r32f },      { depth_source::hardware, pixel_format::d32f },
+    { depth_source::hardware, pixel_format::d24 },     { depth_source::hardware, pixel_format::r32f },
     { depth_source::position, pixel_format::rgba16f }, { depth_source::position, pixel_format::rgba32f },
 };
 constexpr normal_kind normal_kinds[] = {
-    { normal_source::vector, pixel_format::rgba16f },  { normal_source::vector, pixel_format::rgba32f },
-    { normal_source::unorm10, pixel_format::rgb10a2 }, { normal_source::octahedral, pixel_format::rg16 },
+    { normal_source::vector, pixel_format::rgba16f },     { normal_source::vector, pixel_format::rgba32f },
+    { normal_source::unorm10, pixel_format::rgb10a2 },    { normal_source::octahedral, pixel_format::rg16 },
     { normal_source::from_depth, pixel_format::rgba16f },
 };
 
@@ -74,8 +74,9 @@ std::size_t differing(const ao::picture& a, const ao::picture& b)
     const std::size_t size = static_cast<std::size_t>(ao::bytes_per_pixel(a.format));
     std::size_t count = 0;
     for (std::size_t i = 0; i < a.bytes.size(); i += size) {
-        count += !std::equal(a.bytes.begin() + static_cast<std::ptrdiff_t>(i),
-                             a.bytes.begin() + static_cast<std::ptrdiff_t>(i + size), b.bytes.begin() + static_cast<std::ptrdiff_t>(i));
+        count +=
+            !std::equal(a.bytes.begin() + static_cast<std::ptrdiff_t>(i), a.bytes.begin() + static_cast<std::ptrdiff_t>(i + size),
+                        b.bytes.begin() + static_cast<std::ptrdiff_t>(i));
     }
     return count;
 }
@@ -104,6 +105,7 @@ job make_job(const depth_kind& d, const normal_kind& n, int filter)
     return j;
 }
 
+// Pixels that differ from the reference with the shaders for CPUs or with those for GPUs.
 std::size_t difference(const job& j, const g_buffer& g, ao::vk::group_size group = {})
 {
     const ao::facts& f = j.facts;
@@ -115,9 +117,13 @@ std::size_t difference(const job& j, const g_buffer& g, ao::vk::group_size group
     const auto plan = ao::make_plan(j.settings, f, j.camera);
     REQUIRE(plan);
     const ao::picture expected = ao::conformance::reference_visibility(*plan, depth, normal);
-    const auto actual = vk_runner::run(validated_device(), j.settings, f, j.camera, depth, normal, group);
-    REQUIRE(actual.reason.empty());
-    return differing(actual.visibility, expected);
+    std::size_t count = 0;
+    for (const auto which : { vk_runner::shaders::of_device, vk_runner::shaders::of_gpu }) {
+        const auto actual = vk_runner::run(validated_device(), j.settings, f, j.camera, depth, normal, group, which);
+        REQUIRE(actual.reason.empty());
+        count += differing(actual.visibility, expected);
+    }
+    return count;
 }
 
 } // namespace
@@ -203,13 +209,15 @@ TEST_CASE("poisoned depths and normals leave scalar C++ and Vulkan alike")
         const auto plan = ao::make_plan(j.settings, j.facts, j.camera);
         REQUIRE(plan);
         const ao::picture expected = ao::conformance::reference_visibility(*plan, depth, normal);
-        const auto actual = vk_runner::run(validated_device(), j.settings, j.facts, j.camera, depth, normal);
-        REQUIRE(actual.reason.empty());
-        INFO("depth " << static_cast<int>(d.source));
-        CHECK(differing(actual.visibility, expected) == 0);
-        for (std::size_t i = 0; i < actual.visibility.pixels(); ++i) {
-            const float v = actual.visibility.texel<float>(i);
-            REQUIRE((v >= 0 && v <= 1));
+        for (const auto which : { vk_runner::shaders::of_device, vk_runner::shaders::of_gpu }) {
+            const auto actual = vk_runner::run(validated_device(), j.settings, j.facts, j.camera, depth, normal, {}, which);
+            REQUIRE(actual.reason.empty());
+            INFO("depth " << static_cast<int>(d.source));
+            CHECK(differing(actual.visibility, expected) == 0);
+            for (std::size_t i = 0; i < actual.visibility.pixels(); ++i) {
+                const float v = actual.visibility.texel<float>(i);
+                REQUIRE((v >= 0 && v <= 1));
+            }
         }
     }
 }

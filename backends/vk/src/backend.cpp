@@ -67,11 +67,14 @@ result<backend> backend::create(const context& c)
         return error(errc::device, "the Vulkan device lacks Vulkan 1.1");
     }
     const VkPhysicalDeviceLimits& limits = made->properties.limits;
-    const group_size group = c.group;
-    if (group.x == 0 || group.y == 0 || group.x > limits.maxComputeWorkGroupSize[0] || group.y > limits.maxComputeWorkGroupSize[1] ||
-        group.x * group.y > limits.maxComputeWorkGroupInvocations) {
-        std::snprintf(text, sizeof text, "compute groups of %ux%u: the Vulkan device allows 1x1 to %u invocations", group.x, group.y,
-                      limits.maxComputeWorkGroupInvocations);
+    if (c.group.x == 0 && c.group.y == 0) {
+        made->host.group = is_software(*made) ? group_size{ 16, 16 } : group_size{ 8, 8 };
+    }
+    const group_size group = made->host.group;
+    if (group.x == 0 || group.y == 0 || group.x > limits.maxComputeWorkGroupSize[0] ||
+        group.y > limits.maxComputeWorkGroupSize[1] || group.x * group.y > limits.maxComputeWorkGroupInvocations) {
+        std::snprintf(text, sizeof text, "compute groups of %ux%u: the Vulkan device allows 1x1 to %u invocations", group.x,
+                      group.y, limits.maxComputeWorkGroupInvocations);
         return error(errc::invalid_size, text);
     }
     return backend(std::move(made));

@@ -84,17 +84,19 @@ result<tables> make_tables(const device& d, const plan& p)
 
     VkMemoryRequirements needs{};
     d.call.GetBufferMemoryRequirements(d.host.device, made.buffer.get(), &needs);
-    auto memory = allocate(d, needs.size, needs.memoryTypeBits,
-                           VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
+    auto memory =
+        allocate(d, needs.size, needs.memoryTypeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
     if (!memory) {
         return memory.error();
     }
     made.memory = std::move(*memory);
-    if (const VkResult code = d.call.BindBufferMemory(d.host.device, made.buffer.get(), made.memory.get(), 0); code != VK_SUCCESS) {
+    if (const VkResult code = d.call.BindBufferMemory(d.host.device, made.buffer.get(), made.memory.get(), 0);
+        code != VK_SUCCESS) {
         return api_error(code, "vkBindBufferMemory");
     }
     void* mapped = nullptr;
-    if (const VkResult code = d.call.MapMemory(d.host.device, made.memory.get(), 0, VK_WHOLE_SIZE, 0, &mapped); code != VK_SUCCESS) {
+    if (const VkResult code = d.call.MapMemory(d.host.device, made.memory.get(), 0, VK_WHOLE_SIZE, 0, &mapped);
+        code != VK_SUCCESS) {
         return api_error(code, "vkMapMemory");
     }
     std::memcpy(mapped, kernel.data(), sizeof(kernel));
@@ -149,7 +151,8 @@ result<transients> make_transients(const device& d, const plan& p)
     made.memory = std::move(*memory);
     for (std::size_t i = 0; i < made.ids.size(); ++i) {
         const VkImage image = made.pictures[i].image.get();
-        if (const VkResult code = d.call.BindImageMemory(d.host.device, image, made.memory.get(), offsets[i]); code != VK_SUCCESS) {
+        if (const VkResult code = d.call.BindImageMemory(d.host.device, image, made.memory.get(), offsets[i]);
+            code != VK_SUCCESS) {
             return api_error(code, "vkBindImageMemory");
         }
         VkImageViewCreateInfo view{};

@@ -62,7 +62,8 @@ std::span<const std::uint32_t> shader_of(const device& d, const pass& each, cons
     case pass_type::filter_rows:
         return is_software(d) ? filter_rows_comp_software : filter_rows_comp;
     case pass_type::filter_columns:
-        return pick({ filter_columns_comp, filter_columns_comp_r8, filter_columns_comp_software, filter_columns_comp_software_r8 });
+        return pick(
+            { filter_columns_comp, filter_columns_comp_r8, filter_columns_comp_software, filter_columns_comp_software_r8 });
     }
     return {};
 }
@@ -126,9 +127,9 @@ result<owned<VkPipeline>> make_pipeline(const device& d, const plan& p, const pa
 
 std::optional<error> make_layouts(const device& d, prepared& made)
 {
-    constexpr std::array<VkDescriptorType, 6> types{ VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
+    constexpr std::array<VkDescriptorType, 6> types{ VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,  VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
                                                      VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER,
-                                                     VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE };
+                                                     VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,  VK_DESCRIPTOR_TYPE_STORAGE_IMAGE };
     std::array<VkDescriptorSetLayoutBinding, types.size()> bindings{};
     for (std::uint32_t i = 0; i < bindings.size(); ++i) {
         bindings[i] = { i, types[i], 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr };
@@ -197,9 +198,11 @@ std::optional<error> unsupported(const device& d, const plan& p)
         return error(errc::invalid_size, text);
     }
     const group_size group = d.host.group;
-    if ((width - 1) / group.x >= limits.maxComputeWorkGroupCount[0] || (height - 1) / group.y >= limits.maxComputeWorkGroupCount[1]) {
-        std::snprintf(text, sizeof text, "picture of %dx%d takes more compute groups of %ux%u than the Vulkan device can dispatch",
-                      p.facts.width, p.facts.height, group.x, group.y);
+    if ((width - 1) / group.x >= limits.maxComputeWorkGroupCount[0] ||
+        (height - 1) / group.y >= limits.maxComputeWorkGroupCount[1]) {
+        std::snprintf(text, sizeof text,
+                      "picture of %dx%d takes more compute groups of %ux%u than the Vulkan device can dispatch", p.facts.width,
+                      p.facts.height, group.x, group.y);
         return error(errc::invalid_size, text);
     }
     if (!can_sample(d, p.facts.depth_format)) {

@@ -38,7 +38,8 @@ void show_writes(const device& d, VkCommandBuffer commands, VkPipelineStageFlags
     d.call.CmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, stages, 0, 1, &barrier, 0, nullptr, 0, nullptr);
 }
 
-void dispatch(const device& d, VkCommandBuffer commands, const prepared& program, const bound& b, const pass& each, std::size_t slot)
+void dispatch(const device& d, VkCommandBuffer commands, const prepared& program, const bound& b, const pass& each,
+              std::size_t slot)
 {
     const VkPipelineLayout layout = program.layout.get();
     d.call.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, program.pipelines[slot].get());

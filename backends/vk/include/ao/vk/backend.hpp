@@ -21,7 +21,8 @@
 //           GENERAL, …) and their contents visible to SHADER_READ in the COMPUTE_SHADER stage; visibility is in layout GENERAL
 //           and whatever used it last is ordered before SHADER_WRITE in the COMPUTE_SHADER stage (from layout UNDEFINED is fine:
 //           no content is kept).
-//   after   the visibility, still in GENERAL, is visible to SHADER_READ in COMPUTE_SHADER and FRAGMENT_SHADER and to TRANSFER_READ
+//   after   the visibility, still in GENERAL, is visible to SHADER_READ in COMPUTE_SHADER and FRAGMENT_SHADER and to
+//   TRANSFER_READ
 //           in TRANSFER (see context::readers). Anything else, a layout transition too, takes a barrier from COMPUTE_SHADER,
 //           SHADER_WRITE. Writing depth or normal again takes an execution dependency on COMPUTE_SHADER.
 // Outside a render pass, on a queue with compute. record() orders the program's own pictures against their use by earlier
@@ -42,10 +43,11 @@
 
 namespace ao::vk {
 
-// Invocations of a compute group: a matter of speed, never of the result.
+// Invocations of a compute group: a matter of speed, never of the result. 0 x 0: 8 x 8, and 16 x 16 on devices that are CPUs,
+// where it is some 5 % faster.
 struct group_size {
-    std::uint32_t x = 8;
-    std::uint32_t y = 8;
+    std::uint32_t x = 0;
+    std::uint32_t y = 0;
 };
 
 // What the host owns and lends; it outlives the backend and everything made with it.
