@@ -12,6 +12,10 @@
 
 using namespace ao;
 
+// AddressSanitizer has an operator new of its own, and compares it with the one that memory goes back to.
+#if !defined(__SANITIZE_ADDRESS__)
+#define AO_COUNTS_ALLOCATIONS
+
 namespace {
 
 thread_local int allocations = 0;
@@ -36,6 +40,8 @@ void operator delete(void* p, std::size_t) noexcept
 {
     std::free(p);
 }
+
+#endif
 
 namespace {
 
@@ -132,6 +138,7 @@ TEST_CASE("A normal that the plan does not read need not be there", "[cpu]")
     CHECK(b->bind(*program, p, { cpu::view_of(c.depth), {}, cpu::view_of(visibility) }));
 }
 
+#if defined(AO_COUNTS_ALLOCATIONS)
 TEST_CASE("Recording allocates nothing", "[cpu]")
 {
     auto b = cpu::backend::create({ cpu::width::automatic, GENERATE(1, 2) });
@@ -148,6 +155,7 @@ TEST_CASE("Recording allocates nothing", "[cpu]")
     }
     CHECK(allocations == before);
 }
+#endif
 
 TEST_CASE("Programs and bindings survive moves, and each binding writes its own picture", "[cpu]")
 {
