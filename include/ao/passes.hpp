@@ -20,7 +20,10 @@ struct linearize_pass {
     Resources resources;
     bool ao_affine = false;
 
-    constexpr real ao_load_stored_depth(ivec2 pixel) { return resources.stored_depth(pixel); }
+    constexpr real ao_load_stored_depth(ivec2 pixel)
+    {
+        return resources.stored_depth(pixel);
+    }
 
 #include "ao/shared/linearize_pass.h"
 };
@@ -39,10 +42,22 @@ struct occlusion_pass {
     bool ao_limit_thickness = false;
     bool ao_mark_background = false;
 
-    constexpr real ao_load_depth(ivec2 pixel) { return resources.depth(pixel); }
-    constexpr vec4 ao_load_normal(ivec2 pixel) { return resources.normal(pixel); }
-    constexpr vec2 ao_load_rotation(ivec2 pixel) { return resources.rotation(pixel); }
-    constexpr vec4 ao_tap(int i) { return resources.tap(i); }
+    constexpr real ao_load_depth(ivec2 pixel)
+    {
+        return resources.depth(pixel);
+    }
+    constexpr vec4 ao_load_normal(ivec2 pixel)
+    {
+        return resources.normal(pixel);
+    }
+    constexpr vec2 ao_load_rotation(ivec2 pixel)
+    {
+        return resources.rotation(pixel);
+    }
+    constexpr vec4 ao_tap(int i)
+    {
+        return resources.tap(i);
+    }
 
 #include "ao/shared/normal_pass.h"
 #include "ao/shared/occlusion_pass.h"
@@ -57,8 +72,14 @@ struct filter_pass {
     Resources resources;
     int ao_filter_radius = 0;
 
-    constexpr real ao_load_visibility(ivec2 pixel) { return resources.visibility(pixel); }
-    constexpr vec2 ao_load_row_sum(ivec2 pixel) { return resources.row_sum(pixel); }
+    constexpr real ao_load_visibility(ivec2 pixel)
+    {
+        return resources.visibility(pixel);
+    }
+    constexpr vec2 ao_load_row_sum(ivec2 pixel)
+    {
+        return resources.row_sum(pixel);
+    }
 
 #include "ao/shared/filter_pass.h"
 };

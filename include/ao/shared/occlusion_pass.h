@@ -57,7 +57,8 @@ AO_PASS real ao_occlusion_pass(ao_occlusion_constants c, ivec2 pixel)
     AO_PRECISE real last_row = c.height - real(0.5);
 
     real occluded = real(0);
-    AO_UNROLL for (int i = 0; i < ao_tap_count; ++i) {
+    AO_UNROLL
+    for (int i = 0; i < ao_tap_count; ++i) {
         vec4 s = ao_tap(i);
         AO_PRECISE real x = start_x + (across.x * s.x + across.y * s.y + across.z * s.z);
         AO_PRECISE real y = start_y + (down.x * s.x + down.y * s.y + down.z * s.z);
