@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
+#include <optional>
 #include <sys/wait.h>
 #include <vector>
 
@@ -40,18 +41,76 @@ int run(const scratch_directory& dir, const std::vector<std::string>& arguments,
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
+// Fails as it should: status 1, nothing on stdout, and one line on stderr in which the reason occurs.
+void check_failure(const scratch_directory& dir, const std::vector<std::string>& arguments, const std::string& reason)
+{
+    std::string request;
+    for (const std::string& a : arguments)
+        request += a + ' ';
+    INFO(request);
+    CHECK(run(dir, arguments) == 1);
+    const std::string message = read_all(dir.path / "err");
+    INFO(message);
+    CHECK(message.rfind("ao: ", 0) == 0);
+    CHECK(message.find('\n') == message.size() - 1);
+    CHECK(message.find(reason) != std::string::npos);
+    CHECK(read_all(dir.path / "out").empty());
+}
+
+// For the programs started during its life.
+class environment_value {
+public:
+    environment_value(const char* which, const char* value) : name(which)
+    {
+        if (const char* before = std::getenv(name))
+            old = before;
+        ::setenv(name, value, 1);
+    }
+    environment_value(const environment_value&) = delete;
+    environment_value& operator=(const environment_value&) = delete;
+    ~environment_value()
+    {
+        if (old)
+            ::setenv(name, old->c_str(), 1);
+        else
+            ::unsetenv(name);
+    }
+
+private:
+    const char* name;
+    std::optional<std::string> old;
+};
+
 } // namespace
 
 TEST_CASE("bad requests end with one line and status 1", "[tools][program]")
 {
     using words = std::vector<std::string>;
     const scratch_directory dir;
+    const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     const std::string nan = dir.file("nan.obj", "v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n");
+    const std::string infinite = dir.file("infinite.obj", "v 0 0 0\nv 1 0 0\nv 0 1e39 0\nf 1 2 3\n");
+    const std::string empty = dir.file("empty.obj", "");
+    const std::string no_faces = dir.file("no_faces.obj", triangle);
+    const std::string out_of_range = dir.file("out_of_range.obj", triangle + "f 1 2 9\n");
+    const std::string cut_text = dir.file("cut.gltf", "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[");
+    const std::string cut_binary = dir.file("cut.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 1000\n"
+                                                       "property float x\nproperty float y\nproperty float z\n"
+                                                       "element face 100\nproperty list uchar int vertex_indices\n"
+                                                       "end_header\nabc");
+    const std::size_t count = files_in(dir.path);
     const std::pair<words, std::string> cases[] = {
         { {}, "subcommand" },
         { { "render" }, "SCENE" },
         { { "render", "missing.obj" }, "no such file" },
+        { { "render", dir.path.string() }, "not a regular file" },
+        { { "render", empty }, "empty" },
         { { "render", nan }, "vertex 2" },
+        { { "render", infinite }, "vertex 2" },
+        { { "render", no_faces }, "no_faces.obj" },
+        { { "render", out_of_range }, "out_of_range.obj" },
+        { { "render", cut_text }, "cut.gltf" },
+        { { "render", cut_binary }, "cut.ply" },
         { { "render", "courtyard", "--taps", "0" }, "taps" },
         { { "render", "courtyard", "--taps", "1000000" }, "taps" },
         { { "render", "courtyard", "--taps", "many" }, "--taps" },
@@ -60,31 +119,81 @@ TEST_CASE("bad requests end with one line and status 1", "[tools][program]")
         { { "render", "courtyard", "--radius", "1e30" }, "radius" },
         { { "render", "courtyard", "--radius", "nan" }, "radius" },
         { { "render", "courtyard", "--bias", "-0.1" }, "bias" },
+        { { "render", "courtyard", "--bias", "inf" }, "bias" },
+        { { "render", "courtyard", "--thickness", "0" }, "thickness" },
+        { { "render", "courtyard", "--thickness", "nan" }, "thickness" },
         { { "render", "courtyard", "--filter", "4" }, "filter" },
+        { { "render", "courtyard", "--filter", "0" }, "filter" },
+        { { "render", "courtyard", "--filter", "33" }, "filter" },
         { { "render", "courtyard", "--kernel", "cube" }, "--kernel" },
+        { { "render", "courtyard", "--backend", "metal" }, "--backend" },
+        { { "render", "courtyard", "--lanes", "3" }, "--lanes" },
+        { { "render", "courtyard", "--route", "raster" }, "--route" },
         { { "render", "courtyard", "--size", "0x4" }, "--size" },
+        { { "render", "courtyard", "--size", "0x0" }, "--size" },
+        { { "render", "courtyard", "--size", "100000x1" }, "--size" },
         { { "render", "courtyard", "--size", "99999x99999" }, "--size" },
+        { { "render", "courtyard", "--size", "5x" }, "--size" },
         { { "render", "courtyard", "--eye", "1,2" }, "--eye" },
         { { "render", "courtyard", "--eye", "1,2,inf" }, "--eye" },
+        { { "render", "courtyard", "--eye", "nan,0,0" }, "--eye" },
+        { { "render", "courtyard", "--eye", "0,1,0", "--yaw", "nan" }, "--yaw" },
+        { { "render", "courtyard", "--eye", "0,1,0", "--pitch", "nan" }, "--pitch" },
         { { "render", "courtyard", "--yaw", "10" }, "--eye" },
         { { "render", "courtyard", "--fov", "180" }, "--fov" },
+        { { "render", "courtyard", "--fov", "nan" }, "--fov" },
+        { { "render", "courtyard", "--frames", "0" }, "--frames" },
+        { { "render", "courtyard", "--seed", "-1" }, "--seed" },
         { { "render", "courtyard", "--reference", "3" }, "--reference" },
         { { "render", "courtyard", "--projection", "fisheye" }, "--projection" },
         { { "render", "courtyard", "--projection", "parallel,infinite" }, "--projection" },
         { { "render", "courtyard", "--json", "missing/a.json" }, "missing/a.json" },
+        { { "render", "courtyard", "--json", dir.path.string() }, "cannot write" },
+        { { "render", "courtyard", "--backend", "cpu", "--size", "32x18", "--frames", "1", "--json", "/dev/full" }, "/dev/full" },
         { { "render", "courtyard", "--out", nan }, nan },
+        { { "render", "courtyard", "--out", nan + "/inside" }, nan },
+        { { "render", "courtyard", "--out", "/proc/pictures" }, "/proc/pictures" },
         { { "render", "courtyard", "--colour", "red" }, "--colour" },
     };
-    for (const auto& [arguments, reason] : cases) {
-        CHECK(run(dir, arguments) == 1);
-        const std::string message = read_all(dir.path / "err");
-        INFO(message);
-        CHECK(message.rfind("ao: ", 0) == 0);
-        CHECK(message.find('\n') == message.size() - 1);
-        CHECK(message.find(reason) != std::string::npos);
-        CHECK(read_all(dir.path / "out").empty());
+    for (const auto& [arguments, reason] : cases)
+        check_failure(dir, arguments, reason);
+    CHECK(files_in(dir.path) == count + 2); // and the two streams
+}
+
+TEST_CASE("a device that is not there ends with one line and status 1", "[tools][program]")
+{
+    const scratch_directory dir;
+    const auto request = [](const std::string& backend, const std::string& device) {
+        return std::vector<std::string>{ "render", "courtyard", "--backend", backend, "--device", device, "--size", "32x18" };
+    };
+#ifdef AO_HAS_GL
+    check_failure(dir, request("gl", "nonsense"), "ao: gl: no GL");
+    {
+        const environment_value old_gl("MESA_GL_VERSION_OVERRIDE", "3.3");
+        check_failure(dir, request("gl", ""), "ao: gl: no GL context");
     }
-    CHECK(files_in(dir.path) == 3); // the model and the two streams
+#endif
+#ifdef AO_HAS_VK
+    check_failure(dir, request("vk", "nonsense"), "\"nonsense\"");
+    {
+        const environment_value no_driver("VK_ICD_FILENAMES", "/nonexistent");
+        check_failure(dir, request("vk", ""), "ao: vk: no Vulkan device");
+    }
+#endif
+    CHECK(files_in(dir.path) <= 2);
+}
+
+TEST_CASE("the narrowest pictures are pictures", "[tools][program]")
+{
+    const scratch_directory dir;
+    for (const char* size : { "1x1", "1x7", "4097x1" }) {
+        const std::string json = (dir.path / "numbers.json").string();
+        CHECK(run(dir, { "render", "courtyard", "--size", size, "--frames", "1", "--json", json }) == 0);
+        CHECK(read_all(dir.path / "err").empty());
+        const auto numbers = nlohmann::json::parse(read_all(json));
+        for (const auto& pair : numbers["agreement"])
+            CHECK(pair["differing"] == 0);
+    }
 }
 
 TEST_CASE("render writes what it says, and the numbers agree with themselves", "[tools][program]")

@@ -54,7 +54,7 @@ TEST_CASE("the report holds every number and needs nothing else", "[tools][repor
     CHECK(html.find("<b>") == std::string::npos);
     CHECK(html.find("&lt;b&gt;&quot;scene&quot; &amp; &#39;co&#39;&lt;/b&gt;") != std::string::npos);
     CHECK(count(html, "<script>") == 1); // its own; the device's name is text
-    for (const char* cell : { "0.0763", "-0.0100", "0.2500", "best constant", "occlusion 1.50, filter 0.25", "two &amp; more",
+    for (const char* cell : { "0.0763", "-0.0100", "0.2500", "best constant", "occlusion 1.50\nfilter 0.25", "two &amp; more",
                               "data:image/png;base64,AQID", "data:image/png;base64,YWJj" })
         CHECK(html.find(cell) != std::string::npos);
     CHECK(html.find("http") == std::string::npos);

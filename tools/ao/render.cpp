@@ -80,37 +80,6 @@ run_inputs make_inputs(const render_options& o, const frustum& f, const gbuffer&
     return in;
 }
 
-std::vector<run_outcome> run_all(const render_options& o, const run_inputs& in)
-{
-    std::vector<run_outcome> runs;
-    const auto missing = [](const char* name) { throw error(std::string("this program was built without the backend ") + name); };
-    if (o.cpu) {
-#ifdef AO_HAS_CPU
-        runs.push_back(run_cpu(in, o.lanes));
-#else
-        missing("cpu");
-#endif
-    }
-    if (o.gl) {
-#ifdef AO_HAS_GL
-        for (const bool fragment : { false, true })
-            if (fragment ? o.gl_fragment : o.gl_compute)
-                runs.push_back(run_gl(in, o.device, fragment));
-#else
-        missing("gl");
-#endif
-    }
-    if (o.vk) {
-#ifdef AO_HAS_VK
-        runs.push_back(run_vk(in, o.device));
-#else
-        missing("vk");
-#endif
-    }
-    (void)missing;
-    return runs;
-}
-
 } // namespace
 
 void render(const render_options& o)

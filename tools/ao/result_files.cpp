@@ -159,6 +159,10 @@ report_data tables_of(const render_result& r)
         data.facts.push_back({ "truth", std::to_string(o.reference) +
                                             " rays per pixel; errors over pixels of surface, against two "
                                             "independent halves (RMSE and bias without the truth's own noise)" });
+    data.facts.push_back(
+        { "pictures", r.truth ? "visibility, white is open; differences from the reference: red too bright, blue too dark, full "
+                                "colour at 0.5; between backends: white where any bit differs"
+                              : "visibility, white is open; differences between backends: white where any bit differs" });
     for (const run_outcome& run : r.runs) {
         report_run row{ run.backend, run.device, run.route, {}, run.total_ms, run.first_frame_ms, {} };
         for (const timed_pass& p : run.passes)

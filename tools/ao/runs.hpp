@@ -1,5 +1,6 @@
 #pragma once
 
+#include "ao/options.hpp"
 #include "ao/picture.hpp"
 
 #include <string>
@@ -34,11 +35,8 @@ struct run_outcome {
     std::vector<float> visibility;
 };
 
-// All throw `error`: no device, what the backend refuses, or an interrupt.
-// `lanes`: 0 the widest, 1 scalar, 4, 8, 16.
-[[nodiscard]] run_outcome run_cpu(const run_inputs& in, int lanes);
-// `device` is part of a name; empty: OSMesa and lavapipe.
-[[nodiscard]] run_outcome run_gl(const run_inputs& in, const std::string& device, bool fragment);
-[[nodiscard]] run_outcome run_vk(const run_inputs& in, const std::string& device);
+// Every backend and route that was asked for, one after another.
+// Throws `error`: no device, what a backend refuses, or an interrupt.
+[[nodiscard]] std::vector<run_outcome> run_all(const render_options& o, const run_inputs& in);
 
 } // namespace ao::tools

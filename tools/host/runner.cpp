@@ -85,9 +85,12 @@ std::optional<error> add_gl([[maybe_unused]] std::vector<runner_ptr>& to, [[mayb
     if (!route.empty() && route != "compute" && route != "fragment") {
         return unknown_route("gl", route);
     }
-    const bool software = device.empty() || contains_ignoring_case("llvmpipe", device);
+    // Part of the word, or the whole name that device() gives.
+    const bool software = contains_ignoring_case("llvmpipe", device) || contains_ignoring_case(device, "llvmpipe");
     const gl_options context{ software ? gl_platform::osmesa : gl_platform::egl, device };
-    return add(to, make_gl_runner(context, { .route = route == "fragment" ? gl::route::fragment : gl::route::compute }));
+    // Nobody else's state is in a context of its own.
+    return add(to, make_gl_runner(context, { .route = route == "fragment" ? gl::route::fragment : gl::route::compute,
+                                             .restore_state = false }));
 #else
     return not_built("gl");
 #endif

@@ -32,19 +32,20 @@ row error_cells(const std::optional<report_error>& e)
     return { fixed(e->rmse, 4), bias, fixed(e->p99, 4) };
 }
 
-std::string passes_cell(const std::vector<report_pass>& passes)
+std::string passes_cell(const std::vector<report_pass>& passes, const char* between)
 {
     std::string text;
     for (const report_pass& p : passes)
-        text += (text.empty() ? "" : ", ") + p.name + " " + fixed(p.ms, 2);
+        text += (text.empty() ? "" : between) + p.name + " " + fixed(p.ms, 2);
     return text;
 }
 
-std::vector<row> run_table(const report_data& data)
+std::vector<row> run_table(const report_data& data, const char* between_passes)
 {
     std::vector<row> rows{ { "backend", "device", "route", "passes, ms", "total ms", "first frame ms", "RMSE", "bias", "p99" } };
     for (const report_run& r : data.runs) {
-        rows.push_back({ r.backend, r.device, r.route, passes_cell(r.passes), fixed(r.total_ms, 2), fixed(r.first_frame_ms, 1) });
+        rows.push_back({ r.backend, r.device, r.route, passes_cell(r.passes, between_passes), fixed(r.total_ms, 2),
+                         fixed(r.first_frame_ms, 1) });
         const row cells = error_cells(r.error);
         rows.back().insert(rows.back().end(), cells.begin(), cells.end());
     }
@@ -86,14 +87,21 @@ void append_text(std::string& out, const std::vector<row>& rows)
     }
 }
 
+bool holds_numbers(const std::vector<row>& rows, std::size_t column)
+{
+    return std::all_of(rows.begin() + 1, rows.end(),
+                       [&](const row& r) { return r[column].find_first_not_of("0123456789+-.e–") == std::string::npos; });
+}
+
 void append_html(std::string& out, const std::vector<row>& rows)
 {
     out += "<div class=\"wide\"><table>\n";
     for (std::size_t r = 0; r < rows.size(); ++r) {
         out += "<tr>";
         const std::string cell = r == 0 ? "th" : "td";
-        for (const std::string& text : rows[r])
-            out += "<" + cell + ">" + escape_html(text) + "</" + cell + ">";
+        for (std::size_t c = 0; c < rows[r].size(); ++c)
+            out +=
+                "<" + cell + (holds_numbers(rows, c) ? " class=\"number\">" : ">") + escape_html(rows[r][c]) + "</" + cell + ">";
         out += "</tr>\n";
     }
     out += "</table></div>\n";
@@ -106,9 +114,10 @@ body { font: 15px/1.5 system-ui, sans-serif; color: var(--text); background: var
 h1 { font-size: 1.5rem } h2 { font-size: 1.15rem; margin-top: 2rem }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums }
 th, td { text-align: left; padding: .25rem .8rem .25rem 0; border-bottom: 1px solid var(--line); vertical-align: top }
-.wide { overflow-x: auto }
+.wide { overflow-x: auto } .wide th, .wide td { white-space: pre } .number { text-align: right }
 .facts th { font-weight: 600; padding-right: 1.5rem }
-.chooser { display: flex; justify-content: space-between; gap: 1rem; margin: .5rem 0 }
+.chooser { display: flex; flex-wrap: wrap; justify-content: space-between; gap: 1rem; margin: .5rem 0 }
+select { max-width: 100% }
 select, input { font: inherit; color: inherit; background: var(--soft); border: 1px solid var(--line); border-radius: 4px; padding: .15rem .4rem }
 .compare { position: relative; line-height: 0; border: 1px solid var(--line); touch-action: none; cursor: ew-resize; user-select: none }
 .compare img { width: 100%; display: block; image-rendering: pixelated }
@@ -221,7 +230,7 @@ std::string make_report(const report_data& data)
     for (const auto& [name, value] : data.facts)
         out += "<tr><th>" + escape_html(name) + "</th><td>" + escape_html(value) + "</td></tr>\n";
     out += "</table>\n<h2>Runs</h2>\n";
-    append_html(out, run_table(data));
+    append_html(out, run_table(data, "\n"));
     if (!data.agreements.empty()) {
         out += "<h2>Agreement in bits</h2>\n";
         append_html(out, agreement_table(data));
@@ -235,7 +244,7 @@ std::string make_report(const report_data& data)
 std::string make_table(const report_data& data)
 {
     std::string out;
-    append_text(out, run_table(data));
+    append_text(out, run_table(data, ", "));
     if (!data.agreements.empty()) {
         out += '\n';
         append_text(out, agreement_table(data));
