@@ -24,6 +24,10 @@
     X(BindTextures)                                                                                                              \
     X(BindVertexArray)                                                                                                           \
     X(CheckNamedFramebufferStatus)                                                                                               \
+    X(ClearNamedBufferData)                                                                                                      \
+    X(ClearNamedFramebufferfv)                                                                                                   \
+    X(ClearNamedFramebufferuiv)                                                                                                  \
+    X(ClipControl)                                                                                                               \
     X(ColorMaski)                                                                                                                \
     X(CompileShader)                                                                                                             \
     X(CreateBuffers)                                                                                                             \
@@ -33,6 +37,7 @@
     X(CreateShader)                                                                                                              \
     X(CreateTextures)                                                                                                            \
     X(CreateVertexArrays)                                                                                                        \
+    X(CullFace)                                                                                                                  \
     X(DeleteBuffers)                                                                                                             \
     X(DeleteFramebuffers)                                                                                                        \
     X(DeleteProgram)                                                                                                             \
@@ -40,20 +45,28 @@
     X(DeleteShader)                                                                                                              \
     X(DeleteTextures)                                                                                                            \
     X(DeleteVertexArrays)                                                                                                        \
+    X(DepthFunc)                                                                                                                 \
+    X(DepthMask)                                                                                                                 \
+    X(DepthRangeIndexed)                                                                                                         \
     X(DetachShader)                                                                                                              \
     X(Disable)                                                                                                                   \
     X(Disablei)                                                                                                                  \
     X(DispatchCompute)                                                                                                           \
     X(DrawArrays)                                                                                                                \
     X(Enable)                                                                                                                    \
+    X(EnableVertexArrayAttrib)                                                                                                   \
     X(Enablei)                                                                                                                   \
+    X(FrontFace)                                                                                                                 \
     X(GenTextures)                                                                                                               \
     X(GetBooleani_v)                                                                                                             \
+    X(GetBooleanv)                                                                                                               \
+    X(GetDoublei_v)                                                                                                              \
     X(GetError)                                                                                                                  \
     X(GetFloati_v)                                                                                                               \
     X(GetInteger64i_v)                                                                                                           \
     X(GetIntegeri_v)                                                                                                             \
     X(GetIntegerv)                                                                                                               \
+    X(GetNamedBufferSubData)                                                                                                     \
     X(GetProgramInfoLog)                                                                                                         \
     X(GetProgramiv)                                                                                                              \
     X(GetShaderInfoLog)                                                                                                          \
@@ -67,8 +80,10 @@
     X(IsTexture)                                                                                                                 \
     X(LinkProgram)                                                                                                               \
     X(MemoryBarrier)                                                                                                             \
+    X(MultiDrawElementsIndirect)                                                                                                 \
     X(NamedBufferStorage)                                                                                                        \
     X(NamedBufferSubData)                                                                                                        \
+    X(NamedFramebufferDrawBuffers)                                                                                               \
     X(NamedFramebufferTexture)                                                                                                   \
     X(PixelStorei)                                                                                                               \
     X(PolygonMode)                                                                                                               \
@@ -77,9 +92,16 @@
     X(ShaderSource)                                                                                                              \
     X(TextureParameteri)                                                                                                         \
     X(TextureStorage2D)                                                                                                          \
+    X(TextureStorage3D)                                                                                                          \
     X(TextureSubImage2D)                                                                                                         \
     X(TextureView)                                                                                                               \
     X(UseProgram)                                                                                                                \
+    X(VertexArrayAttribBinding)                                                                                                  \
+    X(VertexArrayAttribFormat)                                                                                                   \
+    X(VertexArrayAttribIFormat)                                                                                                  \
+    X(VertexArrayBindingDivisor)                                                                                                 \
+    X(VertexArrayElementBuffer)                                                                                                  \
+    X(VertexArrayVertexBuffer)                                                                                                   \
     X(ViewportIndexedfv)
 
 namespace ao::gl {

@@ -64,9 +64,10 @@ void draw(const functions& gl, const program_state& program, const linked_pass& 
     for (const GLenum capability : switched_off) {
         gl.Disable(capability);
     }
-    for (const GLenum capability : switched_off_indexed) {
-        gl.Disablei(capability, 0);
-    }
+    gl.Disable(GL_DEPTH_TEST);
+    gl.Disable(GL_CULL_FACE);
+    gl.Disablei(GL_BLEND, 0);
+    gl.Disablei(GL_SCISSOR_TEST, 0);
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
@@ -82,7 +83,11 @@ void backend::record_pass(commands, program& prepared, binding& bound, const pla
 
     std::optional<saved_state> before;
     if (options_.restore_state) {
-        before.emplace(gl, options_.route);
+        const bool compute = options_.route == route::compute;
+        before.emplace(gl, touched{ .textures = max_inputs,
+                                    .uniform_buffers = 2,
+                                    .images = compute ? 1U : 0U,
+                                    .color_targets = compute ? 0U : 1U });
     }
     const GLintptr offset = constants_stride * static_cast<GLintptr>(index);
     upload_constants(gl, state, linked, each, offset);

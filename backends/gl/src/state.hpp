@@ -76,6 +76,12 @@ constexpr GLenum internal_format(pixel_format format)
     return GL_NONE;
 }
 
+object make_texture(const functions& gl, GLenum format, int width, int height);
+
+// Fetches need no filter, but a texture without the levels of its own filter would be incomplete, and one with a
+// comparison undefined.
+object make_sampler(const functions& gl);
+
 // A framebuffer with level 0 of a texture as its only color.
 result<object> make_framebuffer(const functions& gl, GLuint texture);
 

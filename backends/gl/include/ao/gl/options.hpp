@@ -26,4 +26,16 @@ struct options {
     bool restore_state = true;
 };
 
+enum class sampling {
+    shared,   // trilinear by ao/shared/texture.h: the same texels and weights on every backend
+    hardware, // trilinear by the driver's sampler: faster on GPUs, weights in steps of 1/256 or so
+};
+
+// Of the rasterizer.
+struct raster_options {
+    shader_source source = shader_source::automatic;
+    gl::sampling sampling = gl::sampling::shared; // of alpha and normal maps
+    bool restore_state = true;                    // as options::restore_state, once a geometry pass
+};
+
 } // namespace ao::gl

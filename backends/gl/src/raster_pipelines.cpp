@@ -1,0 +1,100 @@
+#include "ao_gl_shaders.hpp"
+#include "compile.hpp"
+#include "raster_state.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace ao::gl {
+
+namespace {
+
+// By constant id, as in shaders/geometry.glsl.
+using geometry_constants = std::array<GLuint, 13>;
+constexpr geometry_constants constant_ids{ 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12 };
+
+geometry_constants constants_of(const draw_variant& v, const gbuffer_facts& f, sampling how)
+{
+    return { v.alpha_map,
+             v.normal_map,
+             v.uvs,
+             v.frame,
+             v.deforming,
+             f.position,
+             f.normal,
+             f.motion,
+             f.ids,
+             f.surface,
+             f.frame,
+             static_cast<GLuint>(f.normals),
+             samples(v) && how == sampling::hardware };
+}
+
+result<object> link_geometry(const functions& gl, shader_source chosen, const geometry_constants& values)
+{
+    const source vertex{ shaders::geometry_vert, shaders::geometry_vert_text, constant_ids, "geometry, vertices" };
+    const source fragment{ shaders::geometry_frag, shaders::geometry_frag_text, constant_ids, "geometry, fragments" };
+    std::array<object, 2> stages;
+    result<object> first = compile(gl, chosen, GL_VERTEX_SHADER, vertex, values);
+    if (!first) {
+        return first.error();
+    }
+    stages[0] = std::move(*first);
+    result<object> second = compile(gl, chosen, GL_FRAGMENT_SHADER, fragment, values);
+    if (!second) {
+        return second.error();
+    }
+    stages[1] = std::move(*second);
+    return link(gl, "geometry", stages);
+}
+
+object make_vertex_array(const functions& gl, const draw_variant& v, const gbuffer_facts& f)
+{
+    object made = make_object(gl, object_type::vertex_array, gl.CreateVertexArrays);
+    const auto add = [&](attribute which, GLint components, bool wanted) {
+        if (wanted) {
+            gl.EnableVertexArrayAttrib(made.name(), which);
+            gl.VertexArrayAttribFormat(made.name(), which, components, GL_FLOAT, GL_FALSE, 0);
+            gl.VertexArrayAttribBinding(made.name(), which, which);
+        }
+    };
+    add(position_attribute, 3, true);
+    add(normal_attribute, 3, f.normal || v.frame);
+    add(tangent_attribute, 4, v.normal_map || v.frame);
+    add(uv_attribute, 2, v.uvs);
+    add(previous_attribute, 3, v.deforming);
+    gl.EnableVertexArrayAttrib(made.name(), slot_attribute);
+    gl.VertexArrayAttribIFormat(made.name(), slot_attribute, 1, GL_UNSIGNED_INT, 0);
+    gl.VertexArrayAttribBinding(made.name(), slot_attribute, slot_attribute);
+    gl.VertexArrayBindingDivisor(made.name(), slot_attribute, 1);
+    return made;
+}
+
+} // namespace
+
+std::optional<error> make_pipelines(const functions& gl, const raster_options& chosen, const draw_plan& p,
+                                    raster_model_state& into)
+{
+    std::vector<geometry_constants> made;
+    for (const draw_variant& v : p.variants) {
+        const geometry_constants values = constants_of(v, p.facts, chosen.sampling);
+        const auto same = std::find(made.begin(), made.end(), values);
+        raster_pipeline pipeline;
+        pipeline.variant = v;
+        pipeline.program = static_cast<std::size_t>(same - made.begin());
+        pipeline.vertex_array = make_vertex_array(gl, v, p.facts);
+        if (same == made.end()) {
+            result<object> linked = link_geometry(gl, chosen.source, values);
+            if (!linked) {
+                return linked.error();
+            }
+            into.programs.push_back(std::move(*linked));
+            made.push_back(values);
+        }
+        into.pipelines.push_back(std::move(pipeline));
+    }
+    return std::nullopt;
+}
+
+} // namespace ao::gl

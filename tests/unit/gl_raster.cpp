@@ -1,0 +1,726 @@
+// OpenGL's geometry pass against ray casting in double: exact half-plane tests away from edges, attributes by exact barycentrics.
+#include "ao/gl/rasterizer.hpp"
+#include "ao/texture.hpp"
+#include "unit/gl_pictures.hpp"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+using namespace gl_test;
+
+namespace {
+
+using ao::pixel_format;
+using glm::dmat4;
+using glm::dvec2;
+using glm::dvec3;
+using glm::dvec4;
+
+constexpr int width = 96;
+constexpr int height = 64;
+
+struct mesh_data {
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;
+    std::vector<glm::vec4> tangents;
+    std::vector<glm::vec2> uvs;
+    std::vector<glm::vec3> previous;
+    std::vector<std::uint32_t> indices;
+
+    ao::mesh get() const { return { positions, normals, tangents, uvs, previous, indices }; }
+};
+
+// The unit square in the plane z = 0, facing +z, with normals that are not its own; `mirror_u` turns u around.
+mesh_data square(bool mirror_u)
+{
+    mesh_data m;
+    m.positions = { { -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 } };
+    m.normals = { { -0.3F, 0, 1 }, { 0.2F, 0.1F, 1 }, { 0.4F, 0.3F, 0.9F }, { 0, 0.2F, 1 } };
+    const float side = mirror_u ? -1.0F : 1.0F;
+    for (const glm::vec3& p : m.positions) {
+        m.uvs.push_back({ side * (p.x * 0.5F + 0.5F), p.y * 0.75F + 0.1F });
+        m.tangents.push_back({ side, 0, 0.1F, side });
+    }
+    m.indices = { 0, 1, 2, 0, 2, 3 };
+    return m;
+}
+
+struct world {
+    std::vector<mesh_data> meshes;
+    std::vector<ao::standard_material> materials{ 1 };
+    std::vector<ao::object> objects;
+    std::vector<std::vector<std::uint8_t>> texels;
+    std::vector<ao::texture> textures;
+
+    void add(int mesh, int material, const glm::mat4& model)
+    {
+        ao::object o;
+        o.mesh = mesh;
+        o.material = material;
+        o.model = o.previous_model = model;
+        objects.push_back(o);
+    }
+    void add_texture(int side, std::vector<std::uint8_t> bytes, ao::wrap_mode wrap)
+    {
+        ao::texture t;
+        t.width = t.height = side;
+        t.wrap_u = t.wrap_v = wrap;
+        texels.push_back(std::move(bytes));
+        textures.push_back(t);
+    }
+    // Points into this; ask again after a change.
+    ao::scene get()
+    {
+        views.clear();
+        for (const mesh_data& m : meshes) {
+            views.push_back(m.get());
+        }
+        for (std::size_t i = 0; i < textures.size(); ++i) {
+            textures[i].texels = texels[i];
+        }
+        ao::scene s;
+        s.meshes = views;
+        s.textures = textures;
+        s.materials = materials;
+        s.objects = objects;
+        return s;
+    }
+    std::vector<ao::mesh> views;
+};
+
+dmat4 to_double(const ao::matrix4& m)
+{
+    return dmat4(m.to_glm());
+}
+
+// What a pixel's centre shows.
+struct seen {
+    bool doubtful = false; // too near an edge of a triangle
+    int object = -1;
+    std::size_t triangle = 0;
+    double depth = 0;
+    double stored = 0; // in the depth buffer
+    bool front = true;
+    dvec3 weights{ 0 };
+};
+
+struct frame_size {
+    dmat4 clip;
+    double row_sign;
+
+    dvec2 pixel(const dvec4& c) const { return { (c.x / c.w * 0.5 + 0.5) * width, (row_sign * c.y / c.w * 0.5 + 0.5) * height }; }
+};
+
+dvec3 point(const mesh_data& m, std::size_t triangle, int corner)
+{
+    return dvec3(m.positions[m.indices[3 * triangle + static_cast<std::size_t>(corner)]]);
+}
+
+// Perspective-correct weights of a triangle's corners at a pixel, whether it covers it (positive), and how surely, in pixels.
+struct coverage {
+    dvec3 weights{ 0 };
+    double margin = 0;
+};
+
+coverage cover(const std::array<dvec4, 3>& corners, const frame_size& f, dvec2 at)
+{
+    std::array<dvec2, 3> p;
+    for (std::size_t i = 0; i < 3; ++i) {
+        p[i] = f.pixel(corners[i]);
+    }
+    const auto cross = [](dvec2 a, dvec2 b) { return a.x * b.y - a.y * b.x; };
+    const double area = cross(p[1] - p[0], p[2] - p[0]);
+    coverage c;
+    c.margin = 1e9;
+    for (int i = 0; i < 3; ++i) {
+        const dvec2 a = p[static_cast<std::size_t>((i + 1) % 3)];
+        const dvec2 b = p[static_cast<std::size_t>((i + 2) % 3)];
+        const double edge = cross(b - a, at - a);
+        c.margin = std::min(c.margin, edge * (area < 0 ? -1 : 1) / glm::length(b - a));
+        c.weights[i] = edge / area / corners[static_cast<std::size_t>(i)].w;
+    }
+    c.weights /= c.weights.x + c.weights.y + c.weights.z;
+    return c;
+}
+
+class caster {
+public:
+    caster(const world& w, const ao::gbuffer_camera& camera) : world_(w), camera_(camera), view_(to_double(camera.view))
+    {
+        size_.clip = to_double(camera.projection.matrix);
+        size_.row_sign = camera.projection.rows == ao::first_row::at_ndc_minus_one ? 1 : -1;
+        parallel_ = camera.projection.matrix[2][3] == 0;
+    }
+    dmat4 model_view(int object) const { return view_ * to_double(world_.objects[static_cast<std::size_t>(object)].model); }
+    const mesh_data& mesh_of(int object) const
+    {
+        return world_.meshes[static_cast<std::size_t>(world_.objects[static_cast<std::size_t>(object)].mesh)];
+    }
+    std::array<dvec4, 3> corners(int object, std::size_t triangle) const
+    {
+        const dmat4 clip = size_.clip * model_view(object);
+        const mesh_data& m = mesh_of(object);
+        return { clip * dvec4(point(m, triangle, 0), 1), clip * dvec4(point(m, triangle, 1), 1),
+                 clip * dvec4(point(m, triangle, 2), 1) };
+    }
+    seen look(int x, int y) const
+    {
+        seen nearest;
+        for (int o = 0; o < static_cast<int>(world_.objects.size()); ++o) {
+            const mesh_data& m = mesh_of(o);
+            for (std::size_t t = 0; 3 * t < m.indices.size(); ++t) {
+                const std::array<dvec4, 3> c = corners(o, t);
+                const coverage here = cover(c, size_, { x + 0.5, y + 0.5 });
+                nearest.doubtful = nearest.doubtful || std::abs(here.margin) < 0.02;
+                if (here.margin <= 0) {
+                    continue;
+                }
+                const dvec3 p = position(o, t, here.weights);
+                const bool front = faces_eye(o, t, p);
+                const auto& object = world_.objects[static_cast<std::size_t>(o)];
+                if (!front && !world_.materials[static_cast<std::size_t>(object.material)].two_sided) {
+                    continue;
+                }
+                if (nearest.object < 0 || -p.z < nearest.depth) {
+                    const dvec4 clip = size_.clip * dvec4(p, 1);
+                    const double z = clip.z / clip.w;
+                    nearest = { nearest.doubtful,
+                                o,
+                                t,
+                                -p.z,
+                                camera_.projection.range == ao::depth_range::zero_to_one ? z : z * 0.5 + 0.5,
+                                front,
+                                here.weights };
+                }
+            }
+        }
+        return nearest;
+    }
+    dvec3 position(int object, std::size_t triangle, dvec3 weights) const
+    {
+        const mesh_data& m = mesh_of(object);
+        dvec3 p(0);
+        for (int i = 0; i < 3; ++i) {
+            p += weights[i] * point(m, triangle, i);
+        }
+        return dvec3(model_view(object) * dvec4(p, 1));
+    }
+    // Of an attribute at a pixel that need not lie inside.
+    template <class Vector>
+    auto interpolate(int object, std::size_t triangle, const std::vector<Vector>& values, dvec2 at) const
+    {
+        const dvec3 weights = cover(corners(object, triangle), size_, at).weights;
+        glm::vec<Vector::length(), double> sum(0);
+        for (int i = 0; i < 3; ++i) {
+            sum += weights[i] * glm::vec<Vector::length(), double>(
+                                    values[mesh_of(object).indices[3 * triangle + static_cast<std::size_t>(i)]]);
+        }
+        return sum;
+    }
+    // Unit, in view space, as interpolated or the triangle's own; seen from the front.
+    dvec3 normal(const seen& at, dvec2 pixel) const
+    {
+        const mesh_data& m = mesh_of(at.object);
+        const dvec3 local =
+            m.normals.empty() ? own_normal(m, at.triangle) : interpolate(at.object, at.triangle, m.normals, pixel);
+        return glm::normalize(glm::transpose(glm::inverse(glm::dmat3(model_view(at.object)))) * local);
+    }
+    // Where the point was in the last frame, minus where it is.
+    dvec2 motion(const seen& at, dvec2 pixel) const
+    {
+        const mesh_data& m = mesh_of(at.object);
+        const auto& o = world_.objects[static_cast<std::size_t>(at.object)];
+        const dvec3 local = interpolate(at.object, at.triangle, m.previous.empty() ? m.positions : m.previous, pixel);
+        const frame_size before{ to_double(camera_.previous_projection.matrix), size_.row_sign };
+        return before.pixel(before.clip * to_double(camera_.previous_view) * to_double(o.previous_model) * dvec4(local, 1)) -
+               pixel;
+    }
+
+private:
+    static dvec3 own_normal(const mesh_data& m, std::size_t t)
+    {
+        return glm::cross(point(m, t, 1) - point(m, t, 0), point(m, t, 2) - point(m, t, 0));
+    }
+    bool faces_eye(int object, std::size_t t, dvec3 p) const
+    {
+        const dvec3 n = glm::transpose(glm::inverse(glm::dmat3(model_view(object)))) * own_normal(mesh_of(object), t);
+        return glm::dot(n, parallel_ ? dvec3(0, 0, 1) : -p) > 0;
+    }
+
+    const world& world_;
+    ao::gbuffer_camera camera_;
+    dmat4 view_;
+    frame_size size_{};
+    bool parallel_ = false;
+};
+
+ao::gl::rasterizer rasterizer(const ao::gl::raster_options& o = {})
+{
+    auto made = ao::gl::rasterizer::create(context().loader(), o);
+    REQUIRE(made);
+    return std::move(*made);
+}
+
+ao::gbuffer_facts all_targets()
+{
+    ao::gbuffer_facts f;
+    f.width = width;
+    f.height = height;
+    f.position = f.motion = f.ids = f.surface = true;
+    f.normal_format = pixel_format::rgba32f;
+    return f;
+}
+
+struct drawn {
+    ao::picture depth, position, normal, motion, ids, surface, frame;
+    std::size_t programs = 0;
+    std::size_t draw_calls = 0;
+    std::size_t variants = 0;
+};
+
+drawn draw(ao::gl::rasterizer& gl, const ao::scene& s, const ao::gbuffer_facts& f, const ao::gbuffer_camera& camera)
+{
+    const auto plan = ao::plan_drawing(s, f);
+    REQUIRE(plan);
+    auto model = gl.load(s, *plan);
+    if (!model) {
+        FAIL(std::string(model.error().reason()));
+    }
+    std::vector<ao::host::gl_texture> kept;
+    const auto target = [&](bool wanted, pixel_format format) {
+        if (wanted) {
+            kept.push_back(make_texture(format, f.width, f.height));
+        }
+        return wanted ? kept.back().name : 0xdeadU; // names that are not wanted are not looked at
+    };
+    // The only 24-bit format whose bits the host reads; depth_component24 is bound below.
+    ao::gbuffer_images<unsigned> images{};
+    images.depth = target(true, f.depth_format);
+    images.position = target(f.position, f.position_format);
+    images.normal = target(f.normal, f.normal_format);
+    images.motion = target(f.motion, pixel_format::rg32f);
+    images.ids = target(f.ids, pixel_format::rg32ui);
+    images.surface = target(f.surface, pixel_format::rgba32f);
+    images.frame = target(f.frame, pixel_format::rgba32f);
+    auto targets = gl.bind(*model, images);
+    if (!targets) {
+        FAIL(std::string(targets.error().reason()));
+    }
+    gl.record({}, *model, *targets, camera);
+    drawn d;
+    d.programs = model->programs();
+    d.draw_calls = model->draw_calls();
+    d.variants = plan->variants.size();
+    std::size_t next = 0;
+    const auto fetch = [&](bool wanted) { return wanted ? download(kept[next++]) : ao::picture(); };
+    d.depth = fetch(true);
+    d.position = fetch(f.position);
+    d.normal = fetch(f.normal);
+    d.motion = fetch(f.motion);
+    d.ids = fetch(f.ids);
+    d.surface = fetch(f.surface);
+    d.frame = fetch(f.frame);
+    return d;
+}
+
+ao::gbuffer_camera camera(const ao::projection_options& options, double far = 60)
+{
+    ao::gbuffer_camera c;
+    c.projection = options.parallel ? ao::make_projection({ -3.1, 2.9, -2.2, 2.1, 0.5, far }, options)
+                                    : ao::make_projection({ -0.75, 0.8, -0.5, 0.55, 0.5, far }, options);
+    const glm::mat4 turned = glm::rotate(glm::mat4(1), 0.2F, glm::vec3(0.3F, 0.9F, 0.1F));
+    c.view = ao::matrix4(glm::translate(glm::mat4(1), glm::vec3(0.1F, -0.2F, -5)) * turned);
+    c.previous_projection = c.projection;
+    c.previous_view = ao::matrix4(glm::translate(glm::mat4(1), glm::vec3(0.3F, -0.1F, -5.2F)) * turned);
+    return c;
+}
+
+glm::mat4 placed(glm::vec3 at, float angle, glm::vec3 scale)
+{
+    return glm::scale(glm::rotate(glm::translate(glm::mat4(1), at), angle, glm::normalize(glm::vec3(0.2F, 1, 0.3F))), scale);
+}
+
+// Flat, smooth, culled from either side, mirrored, scaled unevenly, deforming; all overlap somewhere.
+world plain_world()
+{
+    world w;
+    w.meshes.push_back(square(false));
+    mesh_data triangle;
+    triangle.positions = { { -1, -1, 0.2F }, { 1.5F, -0.8F, 0 }, { 0, 1.2F, -0.3F } };
+    triangle.indices = { 0, 1, 2 };
+    w.meshes.push_back(triangle);
+    mesh_data deforming = square(false);
+    for (const glm::vec3& p : deforming.positions) {
+        deforming.previous.push_back(p + glm::vec3(0.1F * p.y, 0.05F, 0));
+    }
+    w.meshes.push_back(deforming);
+    w.materials.resize(2);
+    w.materials[1].two_sided = false;
+    w.add(0, 0, placed({ 0, 0, -2 }, 0.3F, { 3, 1.5F, 1 }));
+    w.add(1, 0, placed({ -1.2F, 0.6F, 0 }, 0.4F, { 1, 1, 1 }));
+    w.add(0, 1, placed({ 1.2F, 0.7F, -1 }, -0.5F, { 0.7F, 0.9F, 2 }));    // front, culled: seen
+    w.add(0, 1, placed({ 0.4F, -0.4F, 0.5F }, 3.3F, { 0.7F, 0.7F, 1 }));  // back, culled: not seen
+    w.add(0, 1, placed({ -0.4F, -0.9F, 0 }, 0.2F, { -0.6F, 0.5F, 1 }));   // mirrored, front: seen
+    w.add(0, 0, placed({ 1.5F, -0.9F, -0.5F }, 3.0F, { 0.6F, 0.6F, 1 })); // back, two-sided: seen
+    w.add(2, 0, placed({ -1.7F, -0.9F, 0.3F }, -0.3F, { 0.5F, 0.5F, 1 }));
+    w.add(1, 0, placed({ 0.2F, 1.1F, 0.1F }, 0.1F, { -0.5F, 0.5F, 0.5F })); // flat and mirrored
+    w.objects[2].previous_model = placed({ 1.1F, 0.6F, -1.1F }, -0.45F, { 0.7F, 0.9F, 2 });
+    return w;
+}
+
+struct expectation {
+    std::size_t compared = 0;
+    std::size_t background = 0;
+    std::vector<int> objects;
+};
+
+// Requires every pixel away from edges to be what the rays see.
+expectation compare(const world& w, const ao::gbuffer_camera& camera, const drawn& d, double depth_step)
+{
+    expectation e;
+    const caster rays(w, camera);
+    const float far_end = ao::fold_projection(camera.projection, width, height)->decode.cleared;
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const seen at = rays.look(x, y);
+            if (at.doubtful) {
+                continue;
+            }
+            ++e.compared;
+            const auto i = static_cast<std::size_t>(y * width + x);
+            INFO("pixel " << x << ", " << y << ", object " << at.object);
+            const auto ids = d.ids.texel<glm::uvec2>(i);
+            REQUIRE(static_cast<int>(ids.x) == at.object + 1);
+            const auto stored = d.depth.format == pixel_format::d24
+                                    ? static_cast<double>(d.depth.texel<std::uint32_t>(i) & 0xffffffU) / 16777215
+                                    : static_cast<double>(d.depth.texel<float>(i));
+            if (at.object < 0) {
+                ++e.background;
+                REQUIRE(stored == static_cast<double>(far_end));
+                REQUIRE(ids.y == 0);
+                REQUIRE(d.position.texel<glm::vec4>(i) == glm::vec4(0));
+                REQUIRE(d.normal.texel<glm::vec4>(i) == glm::vec4(0));
+                REQUIRE(d.motion.texel<glm::vec2>(i) == glm::vec2(0));
+                REQUIRE(d.surface.texel<glm::vec4>(i) == glm::vec4(0));
+                continue;
+            }
+            e.objects.push_back(at.object);
+            const dvec2 pixel(x + 0.5, y + 0.5);
+            REQUIRE(static_cast<int>(ids.y) == w.objects[static_cast<std::size_t>(at.object)].material + 1);
+            REQUIRE(std::abs(stored - at.stored) < depth_step);
+            const dvec3 p = rays.position(at.object, at.triangle, at.weights);
+            const auto position = d.position.texel<glm::vec4>(i);
+            REQUIRE(glm::length(dvec3(position) - p) < 1e-4 * glm::length(p));
+            REQUIRE(position.w == 1);
+            REQUIRE(glm::length(dvec3(d.normal.texel<glm::vec4>(i)) - rays.normal(at, pixel) * (at.front ? 1.0 : -1.0)) < 1e-4);
+            REQUIRE(glm::length(dvec2(d.motion.texel<glm::vec2>(i)) - rays.motion(at, pixel)) < 2e-3);
+
+            const auto surface = d.surface.texel<glm::vec4>(i);
+            REQUIRE(surface.w == (at.front ? 1.0F : -1.0F));
+            const mesh_data& m = rays.mesh_of(at.object);
+            if (m.uvs.empty()) {
+                REQUIRE(glm::vec3(surface) == glm::vec3(0));
+                continue;
+            }
+            const auto uv = [&](double column, double row) {
+                return rays.interpolate(at.object, at.triangle, m.uvs, { column, row });
+            };
+            REQUIRE(glm::length(dvec2(surface.x, surface.y) - uv(pixel.x, pixel.y)) < 1e-4);
+            // Differences within the pixel's own block of 2x2.
+            const dvec2 across = uv((x | 1) + 0.5, pixel.y) - uv((x & ~1) + 0.5, pixel.y);
+            const dvec2 down = uv(pixel.x, (y | 1) + 0.5) - uv(pixel.x, (y & ~1) + 0.5);
+            const double footprint = std::max(glm::dot(across, across), glm::dot(down, down));
+            REQUIRE(std::abs(static_cast<double>(surface.z) - footprint) < 0.03 * footprint);
+        }
+    }
+    return e;
+}
+
+} // namespace
+
+TEST_CASE("every target is what rays see: standard, reversed, infinite, parallel, either depth range and first row")
+{
+    const world built = plain_world();
+    world w = built;
+    const ao::scene s = w.get();
+    auto gl = rasterizer();
+    for (const int kind : { 0, 1, 2, 3, 4, 5, 6, 7 }) {
+        ao::projection_options o;
+        o.reversed = kind == 1 || kind == 2 || kind == 6;
+        o.parallel = kind == 3 || kind == 6;
+        o.range = kind % 2 == 0 ? ao::depth_range::zero_to_one : ao::depth_range::minus_one_to_one;
+        o.rows = kind == 4 || kind == 5 ? ao::first_row::at_ndc_plus_one : ao::first_row::at_ndc_minus_one;
+        o.y_down = kind == 5 || kind == 7;
+        const bool infinite = kind == 2 || kind == 0;
+        const auto view = camera(o, infinite ? std::numeric_limits<double>::infinity() : 60);
+        auto f = all_targets();
+        f.depth_format = kind == 7 ? pixel_format::d24 : pixel_format::d32f;
+        INFO("kind " << kind);
+        const expectation e = compare(w, view, draw(gl, s, f, view), kind == 7 ? 3e-7 : 1e-6);
+        CHECK(e.compared > width * height * 8 / 10);
+        CHECK(e.background > 100);
+        for (const int object : { 0, 1, 2, 4, 5, 6, 7 }) {
+            CHECK(std::count(e.objects.begin(), e.objects.end(), object) > 20);
+        }
+        CHECK(std::count(e.objects.begin(), e.objects.end(), 3) == 0);
+    }
+}
+
+TEST_CASE("shader text draws what SPIR-V draws")
+{
+    world w = plain_world();
+    const ao::scene s = w.get();
+    const auto view = camera({});
+    auto from_spirv = rasterizer({ ao::gl::shader_source::spirv });
+    auto from_text = rasterizer({ ao::gl::shader_source::text });
+    const drawn a = draw(from_spirv, s, all_targets(), view);
+    const drawn b = draw(from_text, s, all_targets(), view);
+    CHECK(differing(a.ids, b.ids) == 0);
+    CHECK(differing(a.depth, b.depth) == 0);
+    CHECK(differing(a.position, b.position) == 0);
+    CHECK(differing(a.normal, b.normal) == 0);
+}
+
+TEST_CASE("normal maps: mirrored UVs, mirrored and unevenly scaled models, either green, both samplers; alpha is cut")
+{
+    for (const auto how : { ao::gl::sampling::shared, ao::gl::sampling::hardware }) {
+        for (const auto source : { ao::gl::shader_source::spirv, ao::gl::shader_source::text }) {
+            if (how == ao::gl::sampling::hardware && source == ao::gl::shader_source::text) {
+                continue;
+            }
+            world w;
+            w.meshes = { square(false), square(true) };
+            w.materials.resize(2);
+            // One texel, so that the filter does not matter here.
+            w.add_texture(1, { 200, 90, 220, 255 }, ao::wrap_mode::repeat);
+            std::vector<std::uint8_t> alpha;
+            for (int i = 0; i < 16; ++i) {
+                alpha.insert(alpha.end(), { 0, 0, 0, static_cast<std::uint8_t>((i * 7 + i / 4) % 2 == 0 ? 255 : 0) });
+            }
+            w.add_texture(4, alpha, ao::wrap_mode::mirror);
+            w.materials[0].normal_map = 0;
+            w.materials[1].normal_map = 0;
+            w.materials[1].normal_green_down = true;
+            w.materials[1].alpha_map = 1;
+            w.materials[1].repeat = { 0.7F, 0.6F };
+            w.add(0, 0, placed({ -1.3F, 0.9F, 0 }, 0.4F, { 1, 0.6F, 1 }));
+            w.add(1, 1, placed({ 1.3F, 0.9F, 0 }, 0.4F, { 1, 0.6F, 3 }));
+            w.add(1, 0, placed({ -1.3F, -0.9F, 0 }, 0.4F, { -0.8F, 0.6F, 0.5F }));
+            w.add(0, 1, placed({ 1.3F, -0.9F, 0 }, 2.7F, { 1, -0.6F, 1 }));
+            const ao::scene s = w.get();
+            auto gl = rasterizer({ source, how });
+            const auto view = camera({});
+            const auto d = draw(gl, s, all_targets(), view);
+            const auto heap = ao::make_texel_heap(s.textures);
+            const caster rays(w, view);
+            std::array<int, 4> compared{};
+            int cut = 0;
+            for (int y = 0; y < height; ++y) {
+                for (int x = 0; x < width; ++x) {
+                    const seen at = rays.look(x, y);
+                    if (at.doubtful || at.object < 0) {
+                        continue;
+                    }
+                    const auto i = static_cast<std::size_t>(y * width + x);
+                    const dvec2 pixel(x + 0.5, y + 0.5);
+                    INFO("pixel " << x << ", " << y << ", object " << at.object << ", sampling " << static_cast<int>(how));
+                    const auto& object = w.objects[static_cast<std::size_t>(at.object)];
+                    const auto& material = w.materials[static_cast<std::size_t>(object.material)];
+                    const mesh_data& m = rays.mesh_of(at.object);
+                    if (material.alpha_map != ao::no_texture) {
+                        const dvec2 uv = rays.interpolate(at.object, at.triangle, m.uvs, pixel) * dvec2(material.repeat);
+                        const double alpha_here = ao::sample<double>(*heap, 1, uv, 0.0).w;
+                        if (std::abs(alpha_here - 0.5) < 0.03) {
+                            continue;
+                        }
+                        REQUIRE((d.ids.texel<glm::uvec2>(i).x == 0) == (alpha_here < 0.5));
+                        if (alpha_here < 0.5) {
+                            ++cut;
+                            continue;
+                        }
+                    }
+                    // Tangent space by its definition: images of the directions of u and v under the model.
+                    const dmat4 model_view = rays.model_view(at.object);
+                    const dvec3 n = rays.normal(at, pixel);
+                    const dvec4 local = rays.interpolate(at.object, at.triangle, m.tangents, pixel);
+                    dvec3 t = glm::dmat3(model_view) * dvec3(local);
+                    t = glm::normalize(t - n * glm::dot(n, t));
+                    dvec3 b = glm::cross(n, t);
+                    const dvec3 along_v = glm::dmat3(model_view) * dvec3(0, 1, 0);
+                    b *= glm::dot(b, along_v) < 0 ? -1 : 1;
+                    const dvec3 texel = dvec3(200, 90, 220) / 255.0 * 2.0 - 1.0;
+                    const dvec3 mapped =
+                        glm::normalize(t * texel.x + b * (texel.y * (material.normal_green_down ? -1 : 1)) + n * texel.z);
+                    REQUIRE(glm::length(dvec3(d.normal.texel<glm::vec4>(i)) - mapped * (at.front ? 1.0 : -1.0)) < 1e-4);
+                    ++compared[static_cast<std::size_t>(at.object)];
+                }
+            }
+            for (const int count : compared) {
+                CHECK(count > 50);
+            }
+            CHECK(cut > 50);
+        }
+    }
+}
+
+TEST_CASE("programs are as many as the needs, and targets that are off are not looked at")
+{
+    world w = plain_world();
+    auto gl = rasterizer();
+    ao::gbuffer_facts f = all_targets();
+    const auto view = camera({});
+    const drawn all = draw(gl, w.get(), f, view);
+    // Sides, mirroring and a mesh's own normals are no needs of a shader; reading uvs and deforming are.
+    CHECK(all.variants == 6);
+    CHECK(all.programs == 3);
+    CHECK(all.draw_calls == all.variants);
+    ao::gbuffer_facts few;
+    few.width = width;
+    few.height = height;
+    few.normal = false;
+    const drawn depth = draw(gl, w.get(), few, view);
+    CHECK(depth.programs == 1);
+    CHECK(differing(depth.depth, all.depth) == 0);
+}
+
+TEST_CASE("normals arrive in every format")
+{
+    world w = plain_world();
+    auto gl = rasterizer();
+    ao::gbuffer_facts f = all_targets();
+    const auto view = camera({});
+    const drawn exact = draw(gl, w.get(), f, view);
+    struct kind {
+        ao::normal_source source;
+        pixel_format format;
+        double error;
+    };
+    for (const kind& k : { kind{ ao::normal_source::vector, pixel_format::rgba16f, 1e-3 },
+                           kind{ ao::normal_source::unorm10, pixel_format::rgb10a2, 2e-3 },
+                           kind{ ao::normal_source::octahedral, pixel_format::rg16, 1e-4 } }) {
+        f.normals = k.source;
+        f.normal_format = k.format;
+        const drawn d = draw(gl, w.get(), f, view);
+        INFO("source " << static_cast<int>(k.source));
+        for (std::size_t i = 0; i < d.normal.pixels(); ++i) {
+            if (d.ids.texel<glm::uvec2>(i).x == 0) {
+                continue;
+            }
+            glm::vec4 texel;
+            if (k.format == pixel_format::rgba16f) {
+                const auto h = d.normal.texel<std::array<std::uint16_t, 4>>(i);
+                texel = { ao::half_to_float(h[0]), ao::half_to_float(h[1]), ao::half_to_float(h[2]), 0 };
+            }
+            else {
+                const auto code = d.normal.texel<std::uint32_t>(i);
+                texel = k.format == pixel_format::rg16
+                            ? glm::vec4(code & 65535U, code >> 16U, 0, 0) / 65535.0F
+                            : glm::vec4(code & 1023U, code >> 10U & 1023U, code >> 20U & 1023U, 0) / 1023.0F;
+            }
+            const glm::vec3 n = ao::math<float>::ao_decoded_normal(static_cast<int>(k.source), texel);
+            REQUIRE(static_cast<double>(glm::length(glm::normalize(n) - glm::vec3(exact.normal.texel<glm::vec4>(i)))) < k.error);
+        }
+    }
+}
+
+TEST_CASE("objects move, and what no longer fits the plan is refused")
+{
+    world w = plain_world();
+    auto gl = rasterizer();
+    const ao::gbuffer_facts f = all_targets();
+    const auto view = camera({});
+    const auto plan = ao::plan_drawing(w.get(), f);
+    REQUIRE(plan);
+    auto model = gl.load(w.get(), *plan);
+    REQUIRE(model);
+    w.objects[1].previous_model = w.objects[1].model;
+    w.objects[1].model = ao::matrix4(placed({ -1.0F, 0.9F, 0.2F }, 0.6F, { 1.1F, 1, 1 }));
+    REQUIRE_FALSE(gl.move(*model, w.get()));
+    std::vector<ao::host::gl_texture> kept;
+    const auto target = [&](pixel_format format) {
+        kept.push_back(make_texture(format, width, height));
+        return kept.back().name;
+    };
+    ao::gbuffer_images<unsigned> images{};
+    images.depth = target(pixel_format::d32f);
+    images.position = target(pixel_format::rgba32f);
+    images.normal = target(pixel_format::rgba32f);
+    images.motion = target(pixel_format::rg32f);
+    images.ids = target(pixel_format::rg32ui);
+    images.surface = target(pixel_format::rgba32f);
+    auto targets = gl.bind(*model, images);
+    REQUIRE(targets);
+    gl.record({}, *model, *targets, view);
+    drawn d;
+    d.depth = download(kept[0]);
+    d.position = download(kept[1]);
+    d.normal = download(kept[2]);
+    d.motion = download(kept[3]);
+    d.ids = download(kept[4]);
+    d.surface = download(kept[5]);
+    compare(w, view, d, 1e-6);
+
+    using Catch::Matchers::Contains;
+    const auto moved_wrong = [&](const ao::scene& s) { return std::string(gl.move(*model, s)->reason()); };
+    world mirrored = w;
+    mirrored.objects[0].model[0][0] *= -1;
+    mirrored.objects[0].model[0][1] *= -1;
+    mirrored.objects[0].model[0][2] *= -1;
+    CHECK_THAT(moved_wrong(mirrored.get()), Contains("object 0 mirrors now"));
+    world fewer = w;
+    fewer.objects.pop_back();
+    CHECK_THAT(moved_wrong(fewer.get()), Contains("another number of objects"));
+    ao::gbuffer_images<unsigned> bad = images;
+    bad.ids = images.normal;
+    CHECK_THAT(std::string(gl.bind(*model, bad).error().reason()), Contains("ids texture"));
+    bad = images;
+    bad.depth = 0;
+    CHECK_THAT(std::string(gl.bind(*model, bad).error().reason()), Contains("depth texture 0"));
+    ao::draw_plan huge = *plan;
+    huge.facts.width = 65536;
+    CHECK(gl.load(w.get(), huge).error().code() == ao::errc::invalid_size);
+}
+
+TEST_CASE("a million objects are drawn, each with its own transform and id; an empty scene clears")
+{
+    world w;
+    w.meshes.push_back(square(false));
+    w.meshes.push_back(square(true));
+    ao::gbuffer_facts f;
+    f.width = width;
+    f.height = height;
+    f.ids = true;
+    auto gl = rasterizer();
+    ao::gbuffer_camera view;
+    view.projection = ao::make_projection({ 0, width, 0, height, 0.5, 10 }, { .parallel = true });
+    const drawn empty = draw(gl, w.get(), f, view);
+    CHECK(empty.programs == 0);
+    CHECK(differing(empty.ids, ao::picture(pixel_format::rg32ui, width, height)) == 0);
+
+    // Pixel i belongs to object `first` + i; all the others are left of the picture.
+    constexpr int count = 1000000;
+    constexpr int first = count - width * height;
+    for (int i = 0; i < count; ++i) {
+        const int pixel = i - first;
+        const auto x = static_cast<float>(pixel < 0 ? -5 : pixel % width);
+        const auto y = static_cast<float>(pixel < 0 ? 0 : pixel / width);
+        w.add(i > count - 1000 ? i % 2 : 0, 0,
+              glm::scale(glm::translate(glm::mat4(1), glm::vec3(x + 0.5F, y + 0.5F, -1)), glm::vec3(0.4F)));
+    }
+    const drawn d = draw(gl, w.get(), f, view);
+    CHECK(d.draw_calls == 1);
+    std::size_t wrong = 0;
+    for (int i = 0; i < width * height; ++i) {
+        const auto ids = d.ids.texel<glm::uvec2>(static_cast<std::size_t>(i));
+        wrong += ids == glm::uvec2(first + i + 1, 1) ? 0 : 1;
+    }
+    CHECK(wrong == 0);
+}
