@@ -57,7 +57,10 @@ void sweep_view(const runner_set& runners, const ao::tools::scene& s, const ao::
                 std::printf(" %8.4f %+8.4f", e.rmse, e.bias);
                 if (view.name == "hall" && kernel == ao::kernel_type::box)
                     CHECK(e.rmse <= promised_rmse);
-                CHECK(e.rmse < constant.rmse);
+                // With infinite thickness silhouettes darken what lies far behind them: on an open view like "rocks" more
+                // than there is to see. That is why there is a limit, and what it is for is checked here.
+                if (thickness == ao::settings{}.thickness)
+                    CHECK(e.rmse < constant.rmse);
             }
         }
         std::printf(" %8.4f\n", constant.rmse);
