@@ -11,6 +11,7 @@
 // Compile with -ffp-contract=off (ao::strict_fp).
 #pragma once
 
+#include "ao/detail/bits.hpp"
 #include "ao/real.hpp"
 
 #include <bit>
@@ -321,6 +322,29 @@ private:
         const double root = 1 / (inverse + (least ? 1 : -1) * detail::slack(inverse, 2.0));
         return least ? detail::float_from(root - detail::slack(root, 2.5)) : detail::float_up_to(root + detail::slack(root, 2.5));
     }
+};
+
+template <>
+struct detail::bits_of<interval, integer_interval<std::int32_t>, integer_interval<std::uint32_t>> {
+    using integer = integer_interval<std::int32_t>;
+
+    static constexpr integer exponent(interval x)
+    {
+        return x.lo > 0 && !x.is_unknown() ? integer::between(of(x.lo), of(x.hi)) : integer::between(-127, 128);
+    }
+    static constexpr interval power_of_two(integer n)
+    {
+        using single = bits_of<float, std::int32_t, std::uint32_t>;
+        const auto at = [](std::int64_t i) { return single::power_of_two(static_cast<std::int32_t>(i)); };
+        return n.lo >= -126 && n.hi <= 127 ? interval(at(n.lo), at(n.hi)) : interval::unknown();
+    }
+    static constexpr interval real(integer_interval<std::uint32_t> bits)
+    {
+        return bits.is_point() ? interval(std::bit_cast<float>(static_cast<std::uint32_t>(bits.lo))) : interval::unknown();
+    }
+
+private:
+    static constexpr std::int64_t of(float x) { return bits_of<float, std::int32_t, std::uint32_t>::exponent(x); }
 };
 
 } // namespace ao

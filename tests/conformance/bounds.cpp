@@ -68,6 +68,14 @@ struct ao::real_traits<careless> {
     static careless max(careless a, careless b) { return a < b ? b : a; }
 };
 
+template <>
+struct ao::detail::bits_of<careless, std::int32_t, std::uint32_t> {
+    using single = bits_of<float, std::int32_t, std::uint32_t>;
+    static std::int32_t exponent(careless a) { return single::exponent(a.x); }
+    static careless power_of_two(std::int32_t n) { return single::power_of_two(n); }
+    static careless real(std::uint32_t bits) { return single::real(bits); }
+};
+
 namespace {
 
 // Not exact: quotients, roots and the conversion of codes differ from the reference's.

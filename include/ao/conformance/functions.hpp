@@ -98,6 +98,16 @@ inline constexpr std::array<function_info, function_count> functions{ {
     { detail::ids::ao_of_eye_depth, "eye_depth", domain::depths, false },
     { detail::ids::ao_of_eye_depth_affine, "eye_depth, affine", domain::depths, true },
     { detail::ids::ao_of_tile_texel, "tile_texel", domain::integral, true },
+    { detail::ids::ao_of_log2, "log2", domain::nonnegative, true },
+    { detail::ids::ao_of_exp2, "exp2", domain::moderate, true },
+    { detail::ids::ao_of_power, "power", domain::squares, true },
+    { detail::ids::ao_of_srgb, "srgb_of_linear", domain::squares, true },
+    { detail::ids::ao_of_turns, "turns", domain::moderate, false },
+    { detail::ids::ao_of_mapped_normal, "mapped_normal", domain::frames, false },
+    { detail::ids::ao_of_packed_frame, "packed_frame", domain::frames, false },
+    { detail::ids::ao_of_transform_normal, "transform_normal", domain::moderate, true },
+    { detail::ids::ao_of_blend, "blend", domain::moderate, true },
+    { detail::ids::ao_of_highlight, "highlight", domain::frames, false },
 } };
 
 struct function_inputs {

@@ -33,7 +33,17 @@ AO_CONST int ao_of_to_pixel_parallel = 27;
 AO_CONST int ao_of_eye_depth = 28;
 AO_CONST int ao_of_eye_depth_affine = 29;
 AO_CONST int ao_of_tile_texel = 30;
-AO_CONST int ao_function_count = 31;
+AO_CONST int ao_of_log2 = 31;
+AO_CONST int ao_of_exp2 = 32;
+AO_CONST int ao_of_power = 33;
+AO_CONST int ao_of_srgb = 34;
+AO_CONST int ao_of_turns = 35;
+AO_CONST int ao_of_mapped_normal = 36;
+AO_CONST int ao_of_packed_frame = 37;
+AO_CONST int ao_of_transform_normal = 38;
+AO_CONST int ao_of_blend = 39;
+AO_CONST int ao_of_highlight = 40;
+AO_CONST int ao_function_count = 41;
 
 AO_FN vec4 ao_padded(vec3 v)
 {
@@ -97,8 +107,49 @@ AO_FN vec4 ao_evaluate_projection(int function, vec4 a, vec4 b)
     return vec4(depth, real(0), real(0), real(0));
 }
 
+AO_FN vec4 ao_evaluate_shading(int function, vec4 a, vec4 b)
+{
+    if (function == ao_of_log2) {
+        return vec4(ao_log2(a.x), ao_log2(a.y), ao_log2(a.z), ao_log2(a.w));
+    }
+    if (function == ao_of_exp2) {
+        return vec4(ao_exp2(a.x), ao_exp2(a.y), ao_exp2(a.z), ao_exp2(a.w));
+    }
+    if (function == ao_of_power) {
+        AO_PRECISE real exponent = a.y * real(8192);
+        return vec4(ao_power(a.x, real(2.5)), ao_power(abs(a.x), exponent), ao_power(abs(a.y), real(20)), real(0));
+    }
+    if (function == ao_of_srgb) {
+        return vec4(ao_srgb_of_linear(a.x), ao_srgb_code(a.x), ao_srgb_of_linear(a.y), ao_srgb_code(a.y));
+    }
+    if (function == ao_of_turns) {
+        return vec4(ao_turns(a.x, a.y), ao_turns(a.z, a.w), ao_turns(b.x, b.y), ao_turns(b.z, b.w));
+    }
+    if (function == ao_of_mapped_normal) {
+        return ao_padded(ao_mapped_normal(vec3(a), vec3(b), real(-1), vec3(real(0.7), real(0.4), real(0.9)), real(1)));
+    }
+    if (function == ao_of_packed_frame) {
+        return ao_packed_frame(vec3(a), vec3(b), real(-1));
+    }
+    if (function == ao_of_transform_normal) {
+        ao_affine_map m = { a, b, vec4(a.y, b.z, a.w, b.x) };
+        return ao_padded(ao_transform_normal(m, vec3(b.w, a.x, b.y)));
+    }
+    if (function == ao_of_blend) {
+        return ao_padded(ao_blend(vec3(a), vec3(b), ao_clamp_mask(a.w)));
+    }
+    vec3 none = vec3(real(0), real(0), real(0));
+    ao_reflectance m = { none, none, none, real(50), false };
+    ao_reflectance mirror = { none, none, none, real(20), true };
+    vec3 helper = ao_normalize_or(vec3(b), vec3(a));
+    return vec4(ao_highlight(m, vec3(a), helper, vec3(a)), ao_highlight(mirror, vec3(a), helper, helper), real(0), real(0));
+}
+
 AO_FN vec4 ao_evaluate(int function, vec4 a, vec4 b)
 {
+    if (function >= ao_of_log2) {
+        return ao_evaluate_shading(function, a, b);
+    }
     if (function <= ao_of_conversion) {
         return ao_evaluate_elementary(function, a, b);
     }
