@@ -76,15 +76,16 @@ constexpr table evaluate(const inputs& in, Hide hide)
 constexpr inputs fixed = make_inputs();
 
 // A picture computed while compiling.
+constexpr int taps = 4;
+constexpr auto kernel = ao::make_kernel(ao::kernel_type::halton, taps, 1);
 struct little_scene {
-    int taps;
     constexpr float depth(glm::ivec2 p) const { return p.x < 3 ? 2.0F : 2.5F + 0.125F * static_cast<float>(p.y); }
     constexpr m::vec4 normal(glm::ivec2 p) const { return { 0.25F * static_cast<float>(p.x - 3), 0.1F, 1.0F, 0.0F }; }
     constexpr m::vec2 rotation(glm::ivec2 p) const
     {
         return { 0.3F + 0.1F * static_cast<float>(p.x), -0.7F + 0.2F * static_cast<float>(p.y) };
     }
-    constexpr m::vec4 tap(int i) const { return ao::make_kernel(ao::kernel_type::halton, i + 1, 1)[static_cast<std::size_t>(i)]; }
+    constexpr m::vec4 tap(int i) const { return kernel[static_cast<std::size_t>(i)]; }
 };
 
 constexpr int side = 6;
@@ -97,12 +98,12 @@ constexpr std::array<float, side * side> render(Hide hide)
     f.height = side;
     ao::settings s;
     s.kernel = ao::kernel_type::halton;
-    s.taps = 4;
+    s.taps = taps;
     s.filter = 1;
     const ao::plan p = *ao::make_plan(s, f, { ao::make_projection({ -0.5, 0.5, -0.5, 0.5, 0.1, 100 }), {}, 1e10F });
     using body_type = ao::occlusion_pass<float, little_scene>;
-    body_type body{ { 4 } };
-    body.ao_tap_count = hide(4);
+    body_type body{ {} };
+    body.ao_tap_count = hide(taps);
     const auto constants = ao::convert_constants<body_type::ao_occlusion_constants, float, ao::occlusion_constants, float>(
         ao::constants_of<ao::occlusion_constants>(p.passes[0]));
     std::array<float, side * side> picture{};
