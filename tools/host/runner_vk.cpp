@@ -34,7 +34,8 @@ public:
     std::string device() const override { return std::string(device_->name()); }
     std::string route() const override
     {
-        return "compute, groups of " + std::to_string(group_.x) + "x" + std::to_string(group_.y);
+        // 0x0 leaves the size to the backend.
+        return group_.x == 0 ? "compute" : "compute, groups of " + std::to_string(group_.x) + "x" + std::to_string(group_.y);
     }
     // Of the devices that are processors lavapipe alone was measured; any other is held to the bounds.
     bool exact() const override
