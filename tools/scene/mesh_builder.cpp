@@ -116,7 +116,7 @@ void mesh_builder::lathe(const glm::vec3& foot, std::span<const outline_point> o
     // The end of a segment leans toward its neighbour where the bend is smooth.
     const auto end_normal = [&](std::size_t segment, std::size_t neighbour) {
         const glm::vec3 own = normal_of(segment);
-        if (neighbour + 1 >= outline.size())
+        if (neighbour >= outline.size() - 1) // there is none; before the first it has wrapped around
             return own;
         const glm::vec3 other = normal_of(neighbour);
         return glm::dot(own, other) > sharp ? glm::normalize(own + other) : own;
