@@ -17,6 +17,7 @@ struct tracer {
     const scene& s;
     const ray_tree& tree;
     const frustum& f;
+    const std::vector<int>& materials; // by object
     glm::dvec3 eye;
     glm::dmat3 to_world; // of directions
     gbuffer& g;
@@ -86,7 +87,7 @@ void tracer::pixel(int x, int y) const
     g.world[i] = glm::vec3(origin + direction * t);
     g.triangle[i] = triangle;
     g.object[i] = s.object[triangle];
-    g.material[i] = s.material[triangle];
+    g.material[i] = static_cast<std::uint32_t>(materials[s.object[triangle]]);
     g.hit[i] = 1;
 }
 
@@ -108,7 +109,8 @@ gbuffer trace_gbuffer(const scene& s, const ray_tree& tree, const camera& c, con
     g.material.resize(pixels, nothing);
     g.hit.resize(pixels);
 
-    const tracer t{ s, tree, f, c.eye, view_axes(c), g };
+    const std::vector<int> materials = materials_of_objects(s);
+    const tracer t{ s, tree, f, materials, c.eye, view_axes(c), g };
     tbb::parallel_for(tbb::blocked_range2d<int>(0, height, tile, 0, width, tile), [&](const tbb::blocked_range2d<int>& r) {
         for (int y = r.rows().begin(); y != r.rows().end(); ++y)
             for (int x = r.cols().begin(); x != r.cols().end(); ++x)

@@ -18,8 +18,8 @@ struct gbuffer {
     std::vector<glm::vec3> world;            // the same point in world space, not by way of the view matrix
     std::vector<std::uint32_t> triangle;
     std::vector<std::uint32_t> object;
-    std::vector<std::uint32_t> material;
-    std::vector<std::uint8_t> hit; // 1 where there is a surface
+    std::vector<std::uint32_t> material; // ao::object::material modulo 2^32
+    std::vector<std::uint8_t> hit;       // 1 where there is a surface
 
     [[nodiscard]] std::size_t size() const { return hit.size(); }
 };

@@ -2,6 +2,8 @@
 
 #include "error.hpp"
 
+#include "ao/scene_check.hpp"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -15,6 +17,36 @@ bool finite(const glm::vec3& v)
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+void check_objects(const scene& s)
+{
+    constexpr std::uint32_t none = 0xffffffffu;
+    std::vector<std::uint32_t> found(s.object_names.size(), none);
+    for (std::size_t t = 0; t < s.triangles.size(); ++t) {
+        std::uint32_t& material = found[s.object[t]];
+        if (material != none && material != s.material[t])
+            throw error(s.name + ": object '" + s.object_names[s.object[t]] + "' has two materials");
+        material = s.material[t];
+    }
+    for (std::size_t i = 0; i < s.object_material.size(); ++i) {
+        const int m = s.object_material[i];
+        const std::size_t index = m >= 0 ? static_cast<std::size_t>(m) : static_cast<std::size_t>(-1 - m);
+        if (index >= (m >= 0 ? s.material_names.size() : s.blends.size()))
+            throw error(s.name + ": object '" + s.object_names[i] + "': no " + (m >= 0 ? "material " : "blend ") +
+                        std::to_string(index));
+    }
+}
+
+void check_textures(const scene& s)
+{
+    for (const scene_texture& t : s.textures) {
+        const std::string name = s.name + ": texture '" + t.name + "'";
+        if (t.width < 1 || t.height < 1 || t.width > ao::max_texture_size || t.height > ao::max_texture_size)
+            throw error(name + ": " + std::to_string(t.width) + " x " + std::to_string(t.height) + " pixels");
+        if (t.rgba.size() != std::size_t{ 4 } * static_cast<std::size_t>(t.width) * static_cast<std::size_t>(t.height))
+            throw error(name + ": texels and size differ");
+    }
+}
+
 } // namespace
 
 void check(const scene& s)
@@ -23,6 +55,11 @@ void check(const scene& s)
         throw error(s.name + ": no triangles");
     if (s.normals.size() != s.positions.size() || s.object.size() != s.triangles.size() ||
         s.material.size() != s.triangles.size())
+        throw error(s.name + ": arrays of different lengths");
+    const auto fits = [](std::size_t size, std::size_t count) { return size == 0 || size == count; };
+    if (!fits(s.uvs.size(), s.positions.size()) || !fits(s.tangents.size(), s.positions.size()) ||
+        !fits(s.object_has_uvs.size(), s.object_names.size()) || !fits(s.object_material.size(), s.object_names.size()) ||
+        !fits(s.materials.size(), s.material_names.size()))
         throw error(s.name + ": arrays of different lengths");
 
     for (std::size_t i = 0; i < s.positions.size(); ++i) {
@@ -36,6 +73,8 @@ void check(const scene& s)
             throw error(vertex + ": normal is not finite");
         if (std::abs(glm::length(s.normals[i]) - 1.0f) > 1.0e-3f)
             throw error(vertex + ": normal is not of unit length");
+        if (!s.uvs.empty() && !(std::isfinite(s.uvs[i].x) && std::isfinite(s.uvs[i].y)))
+            throw error(vertex + ": texture coordinate is not finite");
     }
     for (std::size_t t = 0; t < s.triangles.size(); ++t) {
         const std::string triangle = s.name + ": triangle " + std::to_string(t);
@@ -46,6 +85,18 @@ void check(const scene& s)
         if (s.object[t] >= s.object_names.size() || s.material[t] >= s.material_names.size())
             throw error(triangle + ": object or material out of range");
     }
+    check_objects(s);
+    check_textures(s);
+}
+
+std::vector<int> materials_of_objects(const scene& s)
+{
+    if (!s.object_material.empty())
+        return s.object_material;
+    std::vector<int> materials(s.object_names.size());
+    for (std::size_t t = 0; t < s.triangles.size(); ++t)
+        materials[s.object[t]] = static_cast<int>(s.material[t]);
+    return materials;
 }
 
 bounds bounds_of(const scene& s)

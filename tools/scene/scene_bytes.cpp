@@ -20,11 +20,18 @@ struct writer {
         bytes.append(reinterpret_cast<const char*>(&count), sizeof count);
         bytes.append(reinterpret_cast<const char*>(values.data()), count * sizeof(values[0]));
     }
-    void names(const std::vector<std::string>& values)
+    template <class Value>
+    void value(const Value& v)
     {
-        list(std::vector<char>(values.size()));
-        for (const std::string& v : values)
-            list(v);
+        static_assert(std::is_trivially_copyable_v<Value>);
+        bytes.append(reinterpret_cast<const char*>(&v), sizeof v);
+    }
+    template <class Each, class Value>
+    void parts(const std::vector<Value>& values, const Each& each)
+    {
+        value(values.size());
+        for (const Value& v : values)
+            each(v);
     }
 };
 
@@ -42,13 +49,21 @@ struct reader {
         values.resize(count);
         take(values.data(), count * sizeof(values[0]));
     }
-    void names(std::vector<std::string>& values)
+    template <class Value>
+    void value(Value& v)
     {
-        std::vector<char> count;
-        list(count);
-        values.resize(count.size());
-        for (std::string& v : values)
-            list(v);
+        static_assert(std::is_trivially_copyable_v<Value>);
+        take(&v, sizeof v);
+    }
+    // Grows as the bytes are read, so that a wrong count runs out of bytes before it runs out of memory.
+    template <class Each, class Value>
+    void parts(std::vector<Value>& values, const Each& each)
+    {
+        std::size_t count = 0;
+        value(count);
+        values.clear();
+        for (std::size_t i = 0; i < count; ++i)
+            each(values.emplace_back());
     }
     void take(void* to, std::size_t size)
     {
@@ -60,6 +75,12 @@ struct reader {
     }
 };
 
+template <class Archive, class Names>
+void names(Archive& a, Names& values)
+{
+    a.parts(values, [&](auto& name) { a.list(name); });
+}
+
 // The one list of what a scene consists of.
 template <class Archive, class Scene>
 void every_part(Archive& a, Scene& s)
@@ -70,8 +91,25 @@ void every_part(Archive& a, Scene& s)
     a.list(s.triangles);
     a.list(s.object);
     a.list(s.material);
-    a.names(s.object_names);
-    a.names(s.material_names);
+    a.list(s.uvs);
+    a.list(s.tangents);
+    names(a, s.object_names);
+    names(a, s.material_names);
+    a.list(s.object_has_uvs);
+    a.list(s.object_material);
+    a.list(s.materials);
+    a.list(s.blends);
+    a.parts(s.textures, [&](auto& t) {
+        a.list(t.name);
+        a.value(t.width);
+        a.value(t.height);
+        a.value(t.srgb);
+        a.value(t.wrap_u);
+        a.value(t.wrap_v);
+        a.list(t.rgba);
+        a.value(t.missing);
+    });
+    names(a, s.warnings);
 }
 
 } // namespace
