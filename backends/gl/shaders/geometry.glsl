@@ -15,13 +15,3 @@ layout(constant_id = 9) const bool ao_write_surface = false;
 layout(constant_id = 10) const bool ao_write_frame = false;
 layout(constant_id = 11) const int ao_normal_encoding = 0; // normal_source
 layout(constant_id = 12) const bool ao_hardware_sampling = false;
-
-layout(std140, binding = 0) uniform ao_camera_block
-{
-    ao_affine_map ao_view;
-    ao_affine_map ao_clip; // rows x, y and z of the projection; y grows with the rows in memory
-    vec4 ao_clip_w;
-    ao_affine_map ao_previous_view;
-    ao_projection ao_previous_projection;
-    uint ao_previous_parallel;
-};

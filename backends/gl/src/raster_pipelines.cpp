@@ -28,7 +28,7 @@ geometry_constants constants_of(const draw_variant& v, const gbuffer_facts& f, s
              f.surface,
              f.frame,
              static_cast<GLuint>(f.normals),
-             samples(v) && how == sampling::hardware };
+             reads_maps(v) && how == sampling::hardware };
 }
 
 result<object> link_geometry(const functions& gl, shader_source chosen, const geometry_constants& values)
@@ -52,18 +52,18 @@ result<object> link_geometry(const functions& gl, shader_source chosen, const ge
 object make_vertex_array(const functions& gl, const draw_variant& v, const gbuffer_facts& f)
 {
     object made = make_object(gl, object_type::vertex_array, gl.CreateVertexArrays);
-    const auto add = [&](attribute which, GLint components, bool wanted) {
+    const auto add = [&](GLuint which, bool wanted) {
         if (wanted) {
             gl.EnableVertexArrayAttrib(made.name(), which);
-            gl.VertexArrayAttribFormat(made.name(), which, components, GL_FLOAT, GL_FALSE, 0);
+            gl.VertexArrayAttribFormat(made.name(), which, vertex_attribute_floats[which], GL_FLOAT, GL_FALSE, 0);
             gl.VertexArrayAttribBinding(made.name(), which, which);
         }
     };
-    add(position_attribute, 3, true);
-    add(normal_attribute, 3, f.normal || v.frame);
-    add(tangent_attribute, 4, v.normal_map || v.frame);
-    add(uv_attribute, 2, v.uvs);
-    add(previous_attribute, 3, v.deforming);
+    add(position_attribute, true);
+    add(normal_attribute, reads_normals(v, f));
+    add(tangent_attribute, reads_tangents(v));
+    add(uv_attribute, v.uvs);
+    add(previous_attribute, v.deforming);
     gl.EnableVertexArrayAttrib(made.name(), slot_attribute);
     gl.VertexArrayAttribIFormat(made.name(), slot_attribute, 1, GL_UNSIGNED_INT, 0);
     gl.VertexArrayAttribBinding(made.name(), slot_attribute, slot_attribute);

@@ -8,12 +8,9 @@
 
 namespace ao::gl {
 
-// By scene texture: its place among those that the plan's draws read, or no_texture.
-std::vector<int> read_textures(const scene& s, const draw_plan& p);
-
-object upload_heap(buffer_maker& buffers, const scene& s, const std::vector<int>& places);
+object upload_heap(buffer_maker& buffers, const map_places& maps);
 // By place.
-std::vector<object> upload_textures(buffer_maker& buffers, const functions& gl, const scene& s, const std::vector<int>& places);
-object upload_materials(buffer_maker& buffers, const scene& s, const std::vector<int>& places);
+std::vector<object> upload_textures(buffer_maker& buffers, const functions& gl, const map_places& maps);
+object upload_materials(buffer_maker& buffers, const scene& s, const map_places& maps);
 
 } // namespace ao::gl

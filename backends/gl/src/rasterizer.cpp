@@ -172,27 +172,6 @@ void clear(const functions& gl, GLuint framebuffer, const gbuffer_facts& f, floa
     }
 }
 
-// With y growing along the rows in memory.
-camera_block make_block(const gbuffer_camera& camera, const projection_constants* previous)
-{
-    camera_block block{};
-    block.view = affine_map(camera.view);
-    matrix4 projection = camera.projection.matrix;
-    if (camera.projection.rows == first_row::at_ndc_plus_one) {
-        for (int column = 0; column < 4; ++column) {
-            projection[column][1] = -projection[column][1];
-        }
-    }
-    block.clip = affine_map(projection);
-    block.clip_w = { projection[0][3], projection[1][3], projection[2][3], projection[3][3] };
-    if (previous != nullptr) {
-        block.previous_view = affine_map(camera.previous_view);
-        block.previous_projection = previous->projection;
-        block.previous_parallel = previous->parallel ? 1 : 0;
-    }
-    return block;
-}
-
 void bind_tables(const functions& gl, const raster_model_state& state)
 {
     gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, state.camera.name());
@@ -211,15 +190,17 @@ void bind_tables(const functions& gl, const raster_model_state& state)
 
 void draw_batches(const functions& gl, const raster_model_state& state, bool turned)
 {
-    for (const draw_batch& batch : state.batches) {
+    for (std::size_t i = 0; i < state.batches.size(); ++i) {
+        const draw_batch& batch = state.batches[i];
         const raster_pipeline& pipeline = state.pipelines[batch.variant];
         gl.UseProgram(state.programs[pipeline.program].name());
         gl.BindVertexArray(pipeline.vertex_array.name());
         pipeline.variant.cull_back ? gl.Enable(GL_CULL_FACE) : gl.Disable(GL_CULL_FACE);
         gl.FrontFace(pipeline.variant.mirrored != turned ? GL_CW : GL_CCW);
-        if (batch.alpha_map != 0 || batch.normal_map != 0) {
-            const GLuint any = batch.alpha_map != 0 ? batch.alpha_map : batch.normal_map;
-            const std::array<GLuint, 2> textures{ any, batch.normal_map != 0 ? batch.normal_map : any };
+        const auto [alpha_map, normal_map] = state.maps[i];
+        if (alpha_map != 0 || normal_map != 0) {
+            const GLuint any = alpha_map != 0 ? alpha_map : normal_map;
+            const std::array<GLuint, 2> textures{ any, normal_map != 0 ? normal_map : any };
             constexpr std::array<GLuint, 2> samplers{};
             gl.BindTextures(0, 2, textures.data());
             gl.BindSamplers(0, 2, samplers.data());
@@ -237,14 +218,8 @@ void rasterizer::record(commands, model& loaded, targets& bound, const gbuffer_c
     const functions& gl = *gl_;
     const raster_model_state& state = *loaded.state_;
     const gbuffer_facts& f = state.facts;
-    const auto folded = fold_projection(camera.projection, f.width, f.height);
-    assert(folded);
-    std::optional<projection_constants> previous;
-    if (f.motion) {
-        previous = *fold_projection(camera.previous_projection, f.width, f.height);
-    }
-    const camera_block block = make_block(camera, previous ? &*previous : nullptr);
-    gl.NamedBufferSubData(state.camera.name(), 0, sizeof block, &block);
+    const geometry_view view = make_geometry_view(camera, f, false);
+    gl.NamedBufferSubData(state.camera.name(), 0, sizeof view.camera, &view.camera);
 
     std::optional<saved_state> before;
     if (options_.restore_state) {
@@ -256,13 +231,10 @@ void rasterizer::record(commands, model& loaded, targets& bound, const gbuffer_c
     }
     const GLuint framebuffer = bound.state_->framebuffer.name();
     gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
-    const float far_end = folded->decode.cleared;
-    set_state(gl, f, camera, far_end > 0 ? GL_LESS : GL_GREATER);
-    clear(gl, framebuffer, f, far_end);
+    set_state(gl, f, camera, view.far_end > 0 ? GL_LESS : GL_GREATER);
+    clear(gl, framebuffer, f, view.far_end);
     bind_tables(gl, state);
-    // Whether what turns counter-clockwise in view space turns clockwise along rows in memory.
-    const bool turned = (folded->projection.scale_x < 0) != (folded->projection.scale_y < 0);
-    draw_batches(gl, state, turned);
+    draw_batches(gl, state, view.turned);
 }
 
 } // namespace ao::gl

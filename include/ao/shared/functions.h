@@ -7,6 +7,7 @@
 #include "ao/shared/projection.h"
 #include "ao/shared/tile.h"
 #include "ao/shared/geometry.h"
+#include "ao/shared/geometry_vertex.h"
 #include "ao/shared/elementary.h"
 #include "ao/shared/color.h"
 #include "ao/shared/blend.h"

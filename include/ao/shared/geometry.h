@@ -69,6 +69,20 @@ AO_FN real ao_footprint(vec2 along_x, vec2 along_y)
     return max(x, y);
 }
 
+// Texture coordinates at a fragment and how they change with the pixel.
+struct ao_map_place {
+    vec2 uv;
+    vec2 along_x;
+    vec2 along_y;
+    real footprint; // ao_footprint of the two
+};
+
+AO_FN ao_map_place ao_place_of(vec2 uv, vec2 along_x, vec2 along_y)
+{
+    ao_map_place place = { uv, along_x, along_y, ao_footprint(along_x, along_y) };
+    return place;
+}
+
 // Octahedral coordinates in [-1, 1] of a unit vector: the inverse of ao_octahedral_direction.
 AO_FN vec2 ao_octahedral_coordinates(vec3 n)
 {
@@ -105,6 +119,22 @@ AO_FN vec3 ao_normal_of_frame(vec4 stored, vec3 texel, real green)
     vec3 normal = ao_octahedral_direction(stored.x, stored.y);
     vec3 tangent = ao_octahedral_direction(along, stored.w);
     return ao_mapped_normal(normal, tangent, mix(real(1), real(-1), turned), texel, green);
+}
+
+// A unit normal as the texel that stores it; the counterpart of ao_decoded_normal.
+AO_FN vec4 ao_encoded_normal(int source, vec3 n)
+{
+    vec4 texel = vec4(n.x, n.y, n.z, real(0));
+    if (source == ao_normal_unorm10) {
+        AO_PRECISE vec3 code = vec3(n.x * real(0.5) + real(0.5), n.y * real(0.5) + real(0.5), n.z * real(0.5) + real(0.5));
+        texel = vec4(code.x, code.y, code.z, real(1));
+    }
+    if (source == ao_normal_octahedral) {
+        vec2 coordinates = ao_octahedral_coordinates(n);
+        AO_PRECISE vec2 code = vec2(coordinates.x * real(0.5) + real(0.5), coordinates.y * real(0.5) + real(0.5));
+        texel = vec4(code.x, code.y, real(0), real(0));
+    }
+    return texel;
 }
 
 // Normals of surfaces seen from behind (side < 0) are turned as a whole, after the map.
