@@ -33,7 +33,7 @@ void write_set(const device& d, VkDescriptorSet set, const pass& each, const pre
     // The shader names a picture of normals even where the options take it out of use; any picture will do then.
     const VkDescriptorImageInfo second = each.inputs[1] == image_id::none ? first : picture_of(each.inputs[1], program, images);
     const VkDescriptorImageInfo output = picture_of(each.output, program, images);
-    const VkDescriptorBufferInfo kernel{ program.tables.buffer.get(), 0, tables::kernel_bytes };
+    const VkDescriptorBufferInfo kernel{ program.tables.own.handle.get(), 0, tables::kernel_bytes };
     const VkBufferView rotations = program.tables.rotations.get();
 
     std::array<VkWriteDescriptorSet, 5> writes{};

@@ -22,6 +22,7 @@
     X(CmdDispatch)                                                                                                               \
     X(CmdPipelineBarrier)                                                                                                        \
     X(CmdPushConstants)                                                                                                          \
+    X(CmdUpdateBuffer)                                                                                                           \
     X(CreateBuffer)                                                                                                              \
     X(CreateBufferView)                                                                                                          \
     X(CreateComputePipelines)                                                                                                    \
@@ -63,6 +64,13 @@ struct device {
     VkPhysicalDeviceFeatures features{};
     VkPhysicalDeviceMemoryProperties memory{};
 };
+
+// Loads the entry points and checks what the host said; group_size is settled.
+result<std::unique_ptr<device>> make_device(const context& c);
+
+// On a device that is a CPU (lavapipe) the passes read the program's own pictures as storage images, and host depth that the
+// occlusion would read directly is copied into one first.
+bool is_software(const device& d);
 
 // A child of a VkDevice, destroyed with its owner.
 template <class Handle>

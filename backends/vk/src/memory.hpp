@@ -8,12 +8,41 @@
 
 namespace ao::vk {
 
-VkFormat native_format(pixel_format format);
+// A buffer that the host can write to.
+struct buffer {
+    owned<VkDeviceMemory> memory; // outlives the buffer
+    owned<VkBuffer> handle;
+    VkDeviceSize size = 0;
+};
+
+result<buffer> make_buffer(const device& d, VkDeviceSize size, VkBufferUsageFlags usage);
+// Preconditions: inside the buffer; no command that uses these bytes executes.
+std::optional<error> write(const device& d, const buffer& to, VkDeviceSize offset, std::span<const std::byte> bytes);
+std::optional<error> read(const device& d, const buffer& from, std::span<std::byte> bytes);
+// A storage buffer with this content. errc::out_of_memory: `what` is more than the device can bind.
+result<buffer> make_table(const device& d, const char* what, std::span<const std::byte> bytes, VkBufferUsageFlags more = 0);
+
+struct picture_shape {
+    VkFormat format = VK_FORMAT_UNDEFINED;
+    std::uint32_t width = 1;
+    std::uint32_t height = 1;
+    std::uint32_t layers = 1;
+    std::uint32_t levels = 1;
+    VkImageUsageFlags usage = 0;
+    VkImageViewType view = VK_IMAGE_VIEW_TYPE_2D;
+};
+
+struct picture {
+    owned<VkDeviceMemory> memory; // outlives the image
+    owned<VkImage> image;
+    owned<VkImageView> view;
+};
+
+result<picture> make_picture(const device& d, const picture_shape& shape);
 
 // The tables of a plan: kernel (uniform buffer) and rotation tile (uniform texel buffer of R32G32_SFLOAT), written once.
 struct tables {
-    owned<VkBuffer> buffer;
-    owned<VkDeviceMemory> memory;
+    buffer own;
     owned<VkBufferView> rotations;
     static constexpr VkDeviceSize kernel_bytes = 16384;
 };

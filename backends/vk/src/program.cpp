@@ -1,46 +1,14 @@
 #include "program.hpp"
 
 #include "ao_vk_shaders.hpp"
+#include "pipeline.hpp"
+#include "support.hpp"
 
-#include <cstdio>
 #include <new>
 
 namespace ao::vk {
 
 namespace {
-
-const char* name(pixel_format format)
-{
-    constexpr const char* names[] = { "r32f", "rg32f", "rgba16f", "rgba32f", "rgb10a2", "rg16", "d32f", "d24", "r8" };
-    return names[static_cast<int>(format)];
-}
-
-bool has(const device& d, VkFormat format, VkFormatFeatureFlags wanted)
-{
-    VkFormatProperties properties{};
-    d.call.GetPhysicalDeviceFormatProperties(d.host.physical_device, format, &properties);
-    return (properties.optimalTilingFeatures & wanted) == wanted;
-}
-
-bool can_sample(const device& d, pixel_format format)
-{
-    return has(d, native_format(format), VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT) ||
-           (format == pixel_format::d24 && has(d, VK_FORMAT_D24_UNORM_S8_UINT, VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT));
-}
-
-bool can_store(const device& d, pixel_format format)
-{
-    const bool base = format == pixel_format::r32f;
-    return has(d, native_format(format), VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT) &&
-           (base || d.features.shaderStorageImageExtendedFormats != VK_FALSE);
-}
-
-error lacks(const char* what, pixel_format format)
-{
-    char text[128];
-    std::snprintf(text, sizeof text, "the Vulkan device cannot %s %s pictures", what, name(format));
-    return error(errc::unsupported_format, text);
-}
 
 // The builds of one source: for storing to r32f and r8, for GPUs and for CPUs.
 struct shader_family {
@@ -68,61 +36,21 @@ std::span<const std::uint32_t> shader_of(const device& d, const pass& each, cons
     return {};
 }
 
-// Specialisation constants by their ids in shaders/resources.glsl.
-struct specialisation {
-    std::array<std::uint32_t, 11> values{};
-    std::array<VkSpecializationMapEntry, 11> entries{};
-    VkSpecializationInfo info{};
-
-    specialisation(const pass_options& o, bool depth_in_z, group_size group)
-    {
-        constexpr std::array<std::uint32_t, 11> ids{ 0, 1, 2, 3, 4, 5, 6, 7, 8, 10, 11 };
-        values = { o.affine,
-                   static_cast<std::uint32_t>(o.tap_count),
-                   static_cast<std::uint32_t>(o.normal_source),
-                   o.rotate_normals,
-                   o.parallel,
-                   o.limit_thickness,
-                   o.mark_background,
-                   static_cast<std::uint32_t>(o.filter_radius),
-                   depth_in_z,
-                   group.x,
-                   group.y };
-        for (std::size_t i = 0; i < ids.size(); ++i) {
-            entries[i] = { ids[i], static_cast<std::uint32_t>(i * sizeof(std::uint32_t)), sizeof(std::uint32_t) };
-        }
-        info = { static_cast<std::uint32_t>(entries.size()), entries.data(), sizeof(values), values.data() };
-    }
-    specialisation(const specialisation&) = delete;
-    specialisation& operator=(const specialisation&) = delete;
-};
-
 result<owned<VkPipeline>> make_pipeline(const device& d, const plan& p, const pass& each, VkPipelineLayout layout)
 {
-    const std::span<const std::uint32_t> code = shader_of(d, each, p);
-    VkShaderModuleCreateInfo module_info{};
-    module_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-    module_info.codeSize = code.size_bytes();
-    module_info.pCode = code.data();
-    owned<VkShaderModule> module;
-    AO_VK_CREATE(module, d, ShaderModule, module_info);
-
-    const specialisation options(each.options, p.facts.depth == depth_source::position, d.host.group);
-    VkComputePipelineCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
-    info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
-    info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
-    info.stage.module = module.get();
-    info.stage.pName = "main";
-    info.stage.pSpecializationInfo = &options.info;
-    info.layout = layout;
-    VkPipeline pipeline = VK_NULL_HANDLE;
-    const VkResult result_code =
-        d.call.CreateComputePipelines(d.host.device, d.host.pipeline_cache, 1, &info, nullptr, &pipeline);
-    if (result_code != VK_SUCCESS) {
-        return api_error(result_code, "vkCreateComputePipelines");
-    }
-    return owned<VkPipeline>(d.host.device, pipeline, d.call.DestroyPipeline);
+    const pass_options& o = each.options;
+    const std::array<specialisation_value, 11> values{ { { 0, o.affine },
+                                                         { 1, static_cast<std::uint32_t>(o.tap_count) },
+                                                         { 2, static_cast<std::uint32_t>(o.normal_source) },
+                                                         { 3, o.rotate_normals },
+                                                         { 4, o.parallel },
+                                                         { 5, o.limit_thickness },
+                                                         { 6, o.mark_background },
+                                                         { 7, static_cast<std::uint32_t>(o.filter_radius) },
+                                                         { 8, p.facts.depth == depth_source::position },
+                                                         { 10, d.host.group.x },
+                                                         { 11, d.host.group.y } } };
+    return make_compute_pipeline(d, shader_of(d, each, p), values, layout);
 }
 
 std::optional<error> make_layouts(const device& d, prepared& made)
@@ -154,11 +82,6 @@ std::optional<error> make_layouts(const device& d, prepared& made)
 
 } // namespace
 
-bool is_software(const device& d)
-{
-    return d.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
-}
-
 plan executed_plan(const device& d, const plan& p)
 {
     if (!is_software(d) || p.facts.depth != depth_source::linear) {
@@ -188,22 +111,8 @@ plan executed_plan(const device& d, const plan& p)
 
 std::optional<error> unsupported(const device& d, const plan& p)
 {
-    const VkPhysicalDeviceLimits& limits = d.properties.limits;
-    const auto width = static_cast<std::uint32_t>(p.facts.width);
-    const auto height = static_cast<std::uint32_t>(p.facts.height);
-    char text[160];
-    if (width > limits.maxImageDimension2D || height > limits.maxImageDimension2D) {
-        std::snprintf(text, sizeof text, "picture of %dx%d exceeds the Vulkan device's limit of %u pixels a side", p.facts.width,
-                      p.facts.height, limits.maxImageDimension2D);
-        return error(errc::invalid_size, text);
-    }
-    const group_size group = d.host.group;
-    if ((width - 1) / group.x >= limits.maxComputeWorkGroupCount[0] ||
-        (height - 1) / group.y >= limits.maxComputeWorkGroupCount[1]) {
-        std::snprintf(text, sizeof text,
-                      "picture of %dx%d takes more compute groups of %ux%u than the Vulkan device can dispatch", p.facts.width,
-                      p.facts.height, group.x, group.y);
-        return error(errc::invalid_size, text);
+    if (const auto wrong = wrong_size(d, p.facts.width, p.facts.height)) {
+        return wrong;
     }
     if (!can_sample(d, p.facts.depth_format)) {
         return lacks("sample", p.facts.depth_format);

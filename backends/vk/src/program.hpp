@@ -5,10 +5,6 @@
 
 namespace ao::vk {
 
-// On a device that is a CPU (lavapipe) the passes read the program's own pictures as storage images, and host depth that the
-// occlusion would read directly is copied into one first.
-bool is_software(const device& d);
-
 // The plan that is run for `p`: with the pass that copies the depth, where there is one. It leaves every bit of the result.
 plan executed_plan(const device& d, const plan& p);
 

@@ -1,0 +1,19 @@
+// What a device can do with pictures.
+#pragma once
+
+#include "device.hpp"
+
+namespace ao::vk {
+
+VkFormat native_format(pixel_format format);
+// By usage as optimally tiled pictures. d24: in either of its formats.
+bool can_sample(const device& d, pixel_format format);
+bool can_store(const device& d, pixel_format format);
+
+// errc::unsupported_format: "the Vulkan device cannot `what` ... pictures".
+error lacks(const char* what, pixel_format format);
+
+// The picture is too large for the device, or for a dispatch in groups of context::group.
+std::optional<error> wrong_size(const device& d, int width, int height);
+
+} // namespace ao::vk
