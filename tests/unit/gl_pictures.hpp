@@ -3,14 +3,16 @@
 
 #include "ao/picture.hpp"
 #include "host/gl_texture.hpp"
+#include "unit/picture_test.hpp"
 
 #include <catch2/catch.hpp>
 
-#include <algorithm>
 #include <cstddef>
 #include <utility>
 
 namespace gl_test {
+
+using picture_test::differing;
 
 inline ao::host::gl_context& context()
 {
@@ -39,18 +41,6 @@ inline ao::picture download(const ao::host::gl_texture& from)
     ao::picture to(from.format, static_cast<int>(from.size.width), static_cast<int>(from.size.height));
     REQUIRE(from.download(to.bytes));
     return to;
-}
-
-// Pixels whose bits differ.
-inline std::size_t differing(const ao::picture& a, const ao::picture& b)
-{
-    REQUIRE(a.bytes.size() == b.bytes.size());
-    const auto size = static_cast<std::ptrdiff_t>(ao::bytes_per_pixel(a.format));
-    std::size_t count = 0;
-    for (auto i = a.bytes.begin(), j = b.bytes.begin(); i != a.bytes.end(); i += size, j += size) {
-        count += std::equal(i, i + size, j) ? 0 : 1;
-    }
-    return count;
 }
 
 } // namespace gl_test

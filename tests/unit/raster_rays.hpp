@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace gl_test {
+namespace raster_test {
 
 using ao::pixel_format;
 using glm::dmat4;
@@ -261,4 +261,4 @@ private:
     bool parallel_ = false;
 };
 
-} // namespace gl_test
+} // namespace raster_test
