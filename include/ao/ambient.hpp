@@ -29,13 +29,12 @@ constexpr ambient_light ambient_of_harmonics(const std::array<glm::dvec3, 9>& li
     return ambient;
 }
 
-// From an equirectangular picture: its middle is -Z, right of it +X, its first row +Y. Precondition: a valid texture.
-inline ambient_light ambient_of_environment(const texture& t)
+// From an equirectangular picture: its middle is -Z, right of it +X, its first row +Y. light(row, column) is linear RGB.
+// Preconditions: width, height > 0; light is finite.
+template <class Light>
+ambient_light ambient_of_environment(std::size_t width, std::size_t height, const Light& light)
 {
-    std::array<glm::dvec3, 9> light{};
-    const auto width = static_cast<std::size_t>(t.width);
-    const auto height = static_cast<std::size_t>(t.height);
-    assert(t.texels.size() == 4 * width * height);
+    std::array<glm::dvec3, 9> sums{};
     for (std::size_t row = 0; row < height; ++row) {
         const double top = detail::pi * static_cast<double>(row) / static_cast<double>(height);
         const double bottom = detail::pi * static_cast<double>(row + 1) / static_cast<double>(height);
@@ -55,17 +54,31 @@ inline ambient_light ambient_of_environment(const texture& t)
                                                0.31539156525252005 * (3 * z * z - 1),
                                                1.0925484305920792 * x * z,
                                                0.54627421529603959 * (x * x - y * y) };
-            const std::size_t texel = 4 * (row * width + column);
+            const glm::dvec3 value = light(row, column);
             for (int channel = 0; channel < 3; ++channel) {
-                const std::uint8_t code = t.texels[texel + static_cast<std::size_t>(channel)];
-                const double value = t.srgb ? static_cast<double>(srgb_table[code]) : static_cast<double>(code) / 255;
                 for (std::size_t i = 0; i < 9; ++i) {
-                    light[i][channel] += value * solid * basis[i];
+                    sums[i][channel] += value[channel] * solid * basis[i];
                 }
             }
         }
     }
-    return ambient_of_harmonics(light);
+    return ambient_of_harmonics(sums);
+}
+
+// Precondition: a valid texture.
+inline ambient_light ambient_of_environment(const texture& t)
+{
+    const auto width = static_cast<std::size_t>(t.width);
+    const auto height = static_cast<std::size_t>(t.height);
+    assert(t.texels.size() == 4 * width * height);
+    return ambient_of_environment(width, height, [&](std::size_t row, std::size_t column) {
+        glm::dvec3 light(0.0);
+        for (int channel = 0; channel < 3; ++channel) {
+            const std::uint8_t code = t.texels[4 * (row * width + column) + static_cast<std::size_t>(channel)];
+            light[channel] = t.srgb ? static_cast<double>(srgb_table[code]) : static_cast<double>(code) / 255;
+        }
+        return light;
+    });
 }
 
 } // namespace ao
