@@ -1,16 +1,12 @@
 #include "ao/cpu/backend.hpp"
 
 #include "kernels.hpp"
+#include "threads.hpp"
+#include "views.hpp"
 #include "width.hpp"
 
 #include "ao/kernel.hpp"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
-
-#include <algorithm>
 #include <cassert>
 #include <cstring>
 #include <new>
@@ -29,27 +25,11 @@ void free_aligned::operator()(float* p) const
 struct machine {
     width lanes;
     const kernel_table& kernels;
-    int tile_width;
-    int tile_height;
-    oneapi::tbb::task_arena arena;
+    std::unique_ptr<threads> workers;
 
     void run(kernel k, const pass_arguments& a)
     {
-        const int columns = (a.width + tile_width - 1) / tile_width;
-        const int rows = (a.height + tile_height - 1) / tile_height;
-        const auto run_tiles = [&](const oneapi::tbb::blocked_range<int>& range) {
-            for (int i = range.begin(); i < range.end(); ++i) {
-                const int left = i % columns * tile_width;
-                const int top = i / columns * tile_height;
-                k(a, { left, top, std::min(left + tile_width, a.width), std::min(top + tile_height, a.height) });
-            }
-        };
-        const oneapi::tbb::blocked_range<int> tiles(0, columns * rows);
-        if (arena.max_concurrency() == 1) {
-            run_tiles(tiles);
-            return;
-        }
-        arena.execute([&] { oneapi::tbb::parallel_for(tiles, run_tiles); });
+        workers->over_tiles(a.width, a.height, [&](const tile& t) { k(a, t); });
     }
 };
 
@@ -79,28 +59,6 @@ plane plane_of(const aligned_floats& floats, int pitch, std::size_t offset = 0)
              pixel_format::r32f };
 }
 
-std::optional<error> unfit(const image_view& v, const facts& f, pixel_format format, const char* name)
-{
-    const auto say = [&](errc code, const char* what) { return error(code, std::string(name) + ": " + what); };
-    if (v.format != format) {
-        return say(errc::unsupported_format, "format differs from the plan's");
-    }
-    if (v.data == nullptr) {
-        return say(errc::invalid_size, "no data");
-    }
-    if (v.width != f.width || v.height != f.height) {
-        return say(errc::invalid_size, "size differs from the plan's");
-    }
-    const auto pixel = static_cast<std::size_t>(bytes_per_pixel(format));
-    if (v.row_bytes < static_cast<std::size_t>(v.width) * pixel || (format != pixel_format::r8 && v.row_bytes % 4 != 0)) {
-        return say(errc::invalid_size, "row_bytes must hold a row and be a multiple of 4");
-    }
-    if (v.row_bytes / 4 > 0x7fffffffU / static_cast<std::size_t>(v.height)) {
-        return say(errc::invalid_size, "more than 2^31 - 1 words");
-    }
-    return std::nullopt;
-}
-
 } // namespace
 
 } // namespace detail
@@ -117,31 +75,21 @@ width backend::lanes() const
 
 int backend::threads() const
 {
-    return machine_->arena.max_concurrency();
+    return machine_->workers->count();
 }
 
 result<backend> backend::create(const options& o)
 {
-    if (o.threads < 0 || o.tile_width < 0 || o.tile_height < 0) {
-        return error(errc::invalid_settings, "threads and tile size must not be negative");
-    }
     const width lanes = o.lanes == width::automatic ? detail::widest() : o.lanes;
     if (!is_available(lanes)) {
         return error(errc::device, std::string("this machine or build does not have ") + std::string(name_of(lanes)));
     }
-    try {
-        // Asked for more than it allows, oneTBB would print a warning and start what it allows.
-        using control = oneapi::tbb::global_control;
-        const auto allowed = static_cast<int>(control::active_value(control::max_allowed_parallelism));
-        const int threads = o.threads == 0 ? allowed : std::min(o.threads, allowed);
-        std::unique_ptr<detail::machine> m(
-            new detail::machine{ lanes, detail::kernels_of(lanes), o.tile_width > 0 ? o.tile_width : 64,
-                                 o.tile_height > 0 ? o.tile_height : 64, oneapi::tbb::task_arena(threads) });
-        m->arena.initialize();
-        return backend(std::move(m));
-    } catch (...) {
-        return error(errc::out_of_memory, "oneTBB could not start its threads");
+    auto workers = detail::make_threads(o);
+    if (!workers) {
+        return workers.error();
     }
+    return backend(
+        std::unique_ptr<detail::machine>(new detail::machine{ lanes, detail::kernels_of(lanes), std::move(*workers) }));
 }
 
 result<program> backend::prepare(const plan& p)
@@ -183,15 +131,15 @@ result<program> backend::prepare(const plan& p)
 
 result<binding> backend::bind(program&, const plan& p, const host_images<image_view>& images)
 {
-    if (const auto wrong = detail::unfit(images.depth, p.facts, p.facts.depth_format, "depth")) {
+    if (const auto wrong = detail::unfit(images.depth, p.facts.width, p.facts.height, p.facts.depth_format, "depth")) {
         return *wrong;
     }
     if (p.facts.normals != normal_source::from_depth) {
-        if (const auto wrong = detail::unfit(images.normal, p.facts, p.facts.normal_format, "normal")) {
+        if (const auto wrong = detail::unfit(images.normal, p.facts.width, p.facts.height, p.facts.normal_format, "normal")) {
             return *wrong;
         }
     }
-    if (const auto wrong = detail::unfit(images.visibility, p.facts, p.facts.output_format, "visibility")) {
+    if (const auto wrong = detail::unfit(images.visibility, p.facts.width, p.facts.height, p.facts.output_format, "visibility")) {
         return *wrong;
     }
     return binding(images);

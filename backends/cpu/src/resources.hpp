@@ -13,6 +13,7 @@ struct reader {
     using memory = detail::memory<Real>;
     using integer = typename math<Real>::integer;
     using ivec2 = typename math<Real>::ivec2;
+    using vec4 = typename math<Real>::vec4;
 
     const std::byte* data = nullptr;
     int row_words = 0;
@@ -44,6 +45,24 @@ struct reader {
         const int top = (1 << bits) - 1;
         return Real(memory::shift_right(word(pixel, 0), low) & integer(top)) / Real(top);
     }
+    // d24.
+    Real depth24(ivec2 pixel) const { return Real(word(pixel, 0) & integer(0xffffff)) * Real(d24_step); }
+    // Of any format of normals; w is of no use.
+    vec4 normal(ivec2 pixel) const
+    {
+        switch (format) {
+        case pixel_format::rgba16f:
+            return vec4(half(pixel, 0), half(pixel, 1), half(pixel, 2), Real(0));
+        case pixel_format::rgb10a2:
+            return vec4(unorm(pixel, 0, 10), unorm(pixel, 10, 10), unorm(pixel, 20, 10), Real(0));
+        case pixel_format::rg16:
+            return vec4(unorm(pixel, 0, 16), unorm(pixel, 16, 16), Real(0), Real(0));
+        default:
+            return vec4(component(pixel, 0), component(pixel, 1), component(pixel, 2), Real(0));
+        }
+    }
+    // Component `i` of rgba32f.
+    Real component(ivec2 pixel, int i) const { return memory::as_real(word(pixel, i)); }
 };
 
 template <class Real>
@@ -55,21 +74,14 @@ struct linearize_resources {
     {
         switch (depth.format) {
         case pixel_format::rgba32f:
-            return reader<Real>::memory::as_real(depth.word(pixel, 2));
+            return depth.component(pixel, 2);
         case pixel_format::rgba16f:
             return depth.half(pixel, 2);
         case pixel_format::d24:
-            return depth24(pixel);
+            return depth.depth24(pixel);
         default:
             return depth.loaded(pixel);
         }
-    }
-
-private:
-    Real depth24(ivec2 pixel) const
-    {
-        using integer = typename reader<Real>::integer;
-        return Real(depth.word(pixel, 0) & integer(0xffffff)) * Real(d24_step);
     }
 };
 
@@ -86,20 +98,7 @@ struct occlusion_resources {
     const float* kernel = nullptr;
 
     Real depth(ivec2 pixel) const { return eye_depth.gathered(pixel); }
-    vec4 normal(ivec2 pixel) const
-    {
-        switch (normals.format) {
-        case pixel_format::rgba16f:
-            return vec4(normals.half(pixel, 0), normals.half(pixel, 1), normals.half(pixel, 2), Real(0));
-        case pixel_format::rgb10a2:
-            return vec4(normals.unorm(pixel, 0, 10), normals.unorm(pixel, 10, 10), normals.unorm(pixel, 20, 10), Real(0));
-        case pixel_format::rg16:
-            return vec4(normals.unorm(pixel, 0, 16), normals.unorm(pixel, 16, 16), Real(0), Real(0));
-        default:
-            return vec4(memory::as_real(normals.word(pixel, 0)), memory::as_real(normals.word(pixel, 1)),
-                        memory::as_real(normals.word(pixel, 2)), Real(0));
-        }
-    }
+    vec4 normal(ivec2 pixel) const { return normals.normal(pixel); }
     vec2 rotation(ivec2 texel) const { return vec2(rotation_x.loaded(texel), rotation_y.loaded(texel)); }
     vec4 tap(int i) const
     {
