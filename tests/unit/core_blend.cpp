@@ -1,5 +1,6 @@
 // Plans of blend trees: as few results at a time as brute force finds, the right value, depth without recursion.
 #include "ao/blend.hpp"
+#include "unit/blend_trees.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -17,35 +18,14 @@
 
 namespace {
 
-using ao::blend_node;
+using namespace blend_test;
 
-int node(int i)
+ao::blend_program plan(const blends& tree, int root, const ao::blend_settings& settings = {})
 {
-    return -1 - i;
+    auto planner = ao::blend_planner::create(tree.scene(), settings);
+    REQUIRE(planner);
+    return planner->program(root);
 }
-
-// A scene of nothing but blends of `leaves` materials.
-struct blends {
-    std::vector<blend_node> nodes;
-    std::vector<ao::standard_material> materials;
-    std::vector<ao::texture> textures;
-
-    explicit blends(std::size_t leaves) : materials(leaves) {}
-    ao::scene scene() const
-    {
-        ao::scene s;
-        s.materials = materials;
-        s.blends = nodes;
-        s.textures = textures;
-        return s;
-    }
-    ao::blend_program plan(int root, const ao::blend_settings& settings = {}) const
-    {
-        auto planner = ao::blend_planner::create(scene(), settings);
-        REQUIRE(planner);
-        return planner->program(root);
-    }
-};
 
 // Every binary tree over leaves [first, first + count), appended to nodes that are already there.
 void every_tree(int first, int count, std::vector<blend_node>& nodes, const std::function<void(int)>& use)
@@ -135,20 +115,6 @@ glm::vec<3, Real> run(const ao::blend_program& p, const std::vector<blend_node>&
     return result;
 }
 
-// By the definition, in double; children of a node have a greater index.
-std::vector<glm::dvec3> truth(const std::vector<blend_node>& nodes, const std::vector<glm::vec3>& leaves)
-{
-    std::vector<glm::dvec3> value(nodes.size());
-    for (std::size_t i = nodes.size(); i-- > 0;) {
-        const auto child = [&](int c) {
-            return c >= 0 ? glm::dvec3(leaves[static_cast<std::size_t>(c)]) : value[static_cast<std::size_t>(-1 - c)];
-        };
-        const auto b = static_cast<double>(nodes[i].k);
-        value[i] = child(nodes[i].first) * (1 - b) + child(nodes[i].second) * b;
-    }
-    return value;
-}
-
 std::vector<glm::vec3> random_colors(std::size_t count, std::uint32_t seed)
 {
     std::mt19937 engine(seed);
@@ -165,61 +131,14 @@ double apart(const glm::dvec3& a, const glm::dvec3& b)
     return std::max({ std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z) });
 }
 
-// left_weight of n leaves go to the first child.
-blends split_tree(int leaves, const std::function<int(int)>& left_weight)
-{
-    blends made(static_cast<std::size_t>(leaves));
-    std::mt19937 engine(static_cast<std::uint32_t>(leaves));
-    std::uniform_real_distribution<float> k(0.05F, 0.95F);
-    struct open {
-        std::size_t index;
-        int first;
-        int count;
-    };
-    made.nodes.push_back({ 0, 0, k(engine), ao::no_texture });
-    std::vector<open> stack{ { 0, 0, leaves } };
-    while (!stack.empty()) {
-        const open top = stack.back();
-        stack.pop_back();
-        const int left = left_weight(top.count);
-        const auto child = [&](int first, int count) {
-            if (count == 1) {
-                return first;
-            }
-            made.nodes.push_back({ 0, 0, k(engine), ao::no_texture });
-            stack.push_back({ made.nodes.size() - 1, first, count });
-            return node(static_cast<int>(made.nodes.size()) - 1);
-        };
-        const int first = child(top.first, left);
-        const int second = child(top.first + left, top.count - left);
-        made.nodes[top.index].first = first;
-        made.nodes[top.index].second = second;
-    }
-    return made;
-}
-
-// Mixes between a leaf and the root, at most.
-int depth_of(const std::vector<blend_node>& nodes)
-{
-    std::vector<int> depth(nodes.size(), 1);
-    for (std::size_t i = nodes.size(); i-- > 0;) {
-        for (const int child : { nodes[i].first, nodes[i].second }) {
-            if (child < 0) {
-                depth[i] = std::max(depth[i], depth[static_cast<std::size_t>(-1 - child)] + 1);
-            }
-        }
-    }
-    return depth[0];
-}
-
 void check_against_truth(const blends& tree)
 {
     const std::vector<glm::vec3> colors = random_colors(tree.materials.size(), 5);
-    const std::vector<glm::dvec3> expected = truth(tree.nodes, colors);
-    const glm::vec3 whole = run<float>(tree.plan(0), tree.nodes, colors);
+    const std::vector<glm::dvec3> expected = truth(tree.nodes, { colors.begin(), colors.end() });
+    const glm::vec3 whole = run<float>(plan(tree, 0), tree.nodes, colors);
     CHECK(apart(glm::dvec3(whole), expected[0]) <= 1e-6 * depth_of(tree.nodes));
     for (const int registers : { 1, 2, 3, 5 }) {
-        const ao::blend_program cut = tree.plan(0, { registers, true });
+        const ao::blend_program cut = plan(tree, 0, { registers, true });
         CHECK(cut.registers <= std::max(registers, 2));
         CHECK(run<float>(cut, tree.nodes, colors) == whole); // the form changes no bit
     }
@@ -238,10 +157,10 @@ TEST_CASE("A plan holds no more results than brute force needs, for every tree o
         for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
             tree.nodes[i].k = 0.125F + 0.1F * static_cast<float>(i);
         }
-        const ao::blend_program p = tree.plan(-1 - root);
+        const ao::blend_program p = plan(tree, -1 - root);
         ++histogram[p.registers];
         const bool least = enough(tree.nodes, 8, p.registers) && !enough(tree.nodes, 8, p.registers - 1);
-        const ao::blend_program paper = tree.plan(-1 - root, { 1, true });
+        const ao::blend_program paper = plan(tree, -1 - root, { 1, true });
         const bool same_form = paper.pictures == p.registers && paper.passes() == 15 && p.fused() && p.label == p.registers;
         if (!least || !same_form || p.instructions.size() != 15) {
             CAPTURE(trees, p.registers, paper.pictures);
@@ -258,34 +177,36 @@ TEST_CASE("Chains of every depth need two results and give the value in double",
 {
     const bool left = GENERATE(false, true);
     for (int depth : { 1, 2, 3, 10, 100, 1023, 1024, 4096 }) {
-        const blends chain = split_tree(depth + 1, [&](int count) { return left ? count - 1 : 1; });
-        const ao::blend_program p = chain.plan(0);
+        const blends tree = chain(depth, left);
+        const ao::blend_program p = plan(tree, 0);
         CAPTURE(depth, left);
         CHECK(p.registers == 2);
         CHECK(p.passes() == 1);
         CHECK(p.leaves == depth + 1);
-        CHECK(chain.plan(0, { 1, true }).pictures == 2);
-        check_against_truth(chain);
+        CHECK(plan(tree, 0, { 1, true }).pictures == 2);
+        check_against_truth(tree);
     }
 }
 
 TEST_CASE("Balanced and random trees need the Sethi-Ullman number and give the value in double", "[core][blend]")
 {
-    const blends balanced = split_tree(4096, [](int count) { return count / 2; });
-    const ao::blend_program p = balanced.plan(0);
+    const blends balanced = balanced_tree(4096);
+    const ao::blend_program p = plan(balanced, 0);
     CHECK(p.registers == 13);
+    CHECK(sethi_ullman(balanced.nodes) == 13);
     CHECK(p.fused());
-    CHECK(balanced.plan(0, { 1, true }).pictures == 13);
-    CHECK(balanced.plan(0, { 1, true }).passes() == 8191);
-    CHECK(balanced.plan(0, { 4, true }).passes() == 512 + 511); // subtrees of 8 leaves, and the blends above them
-    CHECK(balanced.plan(0, { 4, true }).pictures == 10);
+    CHECK(plan(balanced, 0, { 1, true }).pictures == 13);
+    CHECK(plan(balanced, 0, { 1, true }).passes() == 8191);
+    CHECK(plan(balanced, 0, { 4, true }).passes() == 512 + 511); // subtrees of 8 leaves, and the blends above them
+    CHECK(plan(balanced, 0, { 4, true }).pictures == 10);
     check_against_truth(balanced);
     std::mt19937 engine(11);
     for (int i = 0; i < 40; ++i) {
         const int leaves = 2 + static_cast<int>(engine() % 500);
         const blends tree =
             split_tree(leaves, [&](int count) { return 1 + static_cast<int>(engine() % static_cast<unsigned>(count - 1)); });
-        CHECK(tree.plan(0).registers <= static_cast<int>(std::bit_width(static_cast<unsigned>(leaves))));
+        CHECK(plan(tree, 0).registers == sethi_ullman(tree.nodes));
+        CHECK(sethi_ullman(tree.nodes) <= static_cast<int>(std::bit_width(static_cast<unsigned>(leaves))));
         check_against_truth(tree);
     }
 }
@@ -293,40 +214,31 @@ TEST_CASE("Balanced and random trees need the Sethi-Ullman number and give the v
 TEST_CASE("A million blends in a row are planned without recursion", "[core][blend]")
 {
     const int depth = 1000000;
-    blends chain(2);
+    blends row(2);
     for (int i = 0; i < depth; ++i) {
-        chain.nodes.push_back({ i + 1 < depth ? node(i + 1) : 0, 1, 0.5F, ao::no_texture });
+        row.nodes.push_back({ i + 1 < depth ? node(i + 1) : 0, 1, 0.5F, ao::no_texture });
     }
-    const ao::blend_program p = chain.plan(0);
+    const ao::blend_program p = plan(row, 0);
     CHECK(p.registers == 2);
     CHECK(p.mixes == depth);
-    CHECK(chain.plan(0, { 1, true }).passes() == 2 * depth + 1);
+    CHECK(plan(row, 0, { 1, true }).passes() == 2 * depth + 1);
 }
 
 TEST_CASE("Shared subtrees are evaluated once", "[core][blend]")
 {
-    // Every node blends the next with itself: as a tree 2^40 leaves.
-    blends shared(2);
-    for (int i = 0; i < 40; ++i) {
-        shared.nodes.push_back({ node(i + 1), node(i + 1), 0.25F, ao::no_texture });
-    }
-    shared.nodes.push_back({ 0, 1, 0.25F, ao::no_texture });
-    const ao::blend_program p = shared.plan(0);
-    CHECK(p.leaves == 2);
+    const blends shared = self_shared(40);
+    const ao::blend_program p = plan(shared, 0);
+    CHECK(p.leaves == leaves_of(shared.nodes));
     CHECK(p.mixes == 41);
     CHECK(p.registers == 2);
     check_against_truth(shared);
 
-    // A ladder: each node takes the two below, so that two results stay alive.
-    blends ladder(2);
-    for (int i = 0; i < 60; ++i) {
-        ladder.nodes.push_back({ node(i + 1), i + 2 < 61 ? node(i + 2) : 1, 0.5F, ao::no_texture });
-    }
-    ladder.nodes.push_back({ 0, 1, 0.75F, ao::no_texture });
-    const ao::blend_program q = ladder.plan(0);
+    const blends rungs = ladder(60);
+    const ao::blend_program q = plan(rungs, 0);
+    CHECK(q.leaves == leaves_of(rungs.nodes));
     CHECK(q.mixes == 61);
     CHECK(q.registers <= 62);
-    check_against_truth(ladder);
+    check_against_truth(rungs);
 }
 
 TEST_CASE("Constant masks and weights of 0 and 1 leave their child", "[core][blend]")
@@ -345,7 +257,7 @@ TEST_CASE("Constant masks and weights of 0 and 1 leave their child", "[core][ble
     }
     const auto leaf_of = [&](const blend_node& n, const ao::blend_settings& settings = {}) {
         tree.nodes = { n };
-        const ao::blend_program p = tree.plan(0, settings);
+        const ao::blend_program p = plan(tree, 0, settings);
         return p.instructions.size() == 1 ? p.instructions[0].source : -1;
     };
     CHECK(leaf_of({ 1, 2, 0.5F, 0 }) == 1);
@@ -358,12 +270,12 @@ TEST_CASE("Constant masks and weights of 0 and 1 leave their child", "[core][ble
     CHECK(leaf_of({ 1, 2, 0.5F, 1 }, { 16, false }) == 2);               // a mask does not
 
     // A pruned branch costs nothing, however large.
-    blends large = split_tree(1000, [](int count) { return count / 2; });
+    blends large = balanced_tree(1000);
     large.nodes[0].k = 0;
     const int left = large.nodes[0].first;
-    const ao::blend_program p = large.plan(0);
+    const ao::blend_program p = plan(large, 0);
     CHECK(p.leaves == 500);
-    CHECK(p.instructions == large.plan(-1 - left).instructions);
+    CHECK(p.instructions == plan(large, -1 - left).instructions);
 }
 
 TEST_CASE("The ends of a blend are the child's bits, whatever the other child is", "[core][blend]")

@@ -1,5 +1,6 @@
 // OpenGL's shading passes.
 #include "ao/gl/shading.hpp"
+#include "unit/deep_blends.hpp"
 #include "unit/gl_pictures.hpp"
 #include "unit/shade_cases.hpp"
 
@@ -67,6 +68,16 @@ TEST_CASE("OpenGL blends as scalar C++ does, in every bit, fused, cut and as in 
     check_blending([&](const auto& plan, const auto& heap, const auto& in) { return run(gl, plan, heap, in); });
     auto text = executor(ao::gl::shader_source::text);
     check_blending([&](const auto& plan, const auto& heap, const auto& in) { return run(text, plan, heap, in); }, { 2 });
+}
+
+TEST_CASE("OpenGL blends deep and wide trees as double does, shared ones once, with the ends' bits and in linear light")
+{
+    auto gl = executor(ao::gl::shader_source::spirv);
+    const auto on_device = [&](const auto& plan, const auto& heap, const auto& in) { return run(gl, plan, heap, in); };
+    check_deep_blends(on_device);
+    check_shared_blends(on_device);
+    check_blend_ends(on_device);
+    check_linear_light(on_device);
 }
 
 TEST_CASE("weights outside [0, 1] are clamped and counted")

@@ -184,16 +184,23 @@ struct outcome {
 // What the plan does not read must not be handed over.
 using run_function = std::function<outcome(const ao::shade_plan&, const ao::texel_heap&, const ao::conformance::shade_inputs&)>;
 
+// What `run` makes, having the reference's bits.
+inline outcome require_bits(const run_function& run, const ao::shade_plan& plan, const ao::texel_heap& heap,
+                            const ao::conformance::shade_inputs& in)
+{
+    ao::conformance::shade_executor<float> reference(plan, heap, in);
+    reference.run();
+    outcome made = run(plan, heap, in);
+    REQUIRE(differing(made.color, ao::conformance::reference_color(plan, heap, in)) == 0);
+    REQUIRE(made.clamped == reference.clamped());
+    return made;
+}
+
 // Returns the clamped weights.
 inline std::uint64_t require_reference(const run_function& run, const ao::shade_plan& plan, const ao::texel_heap& heap,
                                        const ao::conformance::shade_inputs& in)
 {
-    ao::conformance::shade_executor<float> reference(plan, heap, in);
-    reference.run();
-    const outcome made = run(plan, heap, in);
-    REQUIRE(differing(made.color, ao::conformance::reference_color(plan, heap, in)) == 0);
-    REQUIRE(made.clamped == reference.clamped());
-    return made.clamped;
+    return require_bits(run, plan, heap, in).clamped;
 }
 
 // Kinds 0 to 5: with and without maps and reflections, stored positions, parallel projection, formats of normals and visibility.
