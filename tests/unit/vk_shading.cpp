@@ -1,6 +1,6 @@
 // Vulkan's shading passes against scalar C++, bit for bit: random geometry passes, tables of materials and trees of blends.
 #include "ao/vk/shading.hpp"
-#include "unit/shade_cases.hpp"
+#include "unit/deep_blends.hpp"
 #include "unit/vk_pictures.hpp"
 
 #include <string>
@@ -205,4 +205,15 @@ TEST_CASE("Vulkan's shading refuses pictures and plans that do not fit, and says
     ao::vk::context incomplete = vk_runner::context_of(device());
     incomplete.device = VK_NULL_HANDLE;
     CHECK(ao::vk::shading::create(incomplete).error().code() == ao::errc::device);
+}
+
+TEST_CASE("Vulkan blends deep and wide trees as double does, shared ones once, with the ends' bits and in linear light")
+{
+    auto vk = executor();
+    const auto on_device = [&](const auto& plan, const auto& heap, const auto& in) { return run(vk, plan, heap, in); };
+    check_deep_blends(on_device);
+    check_shared_blends(on_device);
+    check_blend_ends(on_device);
+    check_linear_light(on_device);
+    check_silence();
 }
