@@ -34,6 +34,15 @@ ao::result<picture> runner::run(const settings& chosen, const facts& known, cons
     return download();
 }
 
+#ifdef AO_HAS_GL
+gl_options gl_context_of(const std::string& device)
+{
+    // Part of the word, or the whole name that device() gives.
+    const bool software = contains_ignoring_case("llvmpipe", device) || contains_ignoring_case(device, "llvmpipe");
+    return { software ? gl_platform::osmesa : gl_platform::egl, device };
+}
+#endif
+
 namespace {
 
 using made = ao::result<std::vector<runner_ptr>>;
@@ -85,12 +94,10 @@ std::optional<error> add_gl([[maybe_unused]] std::vector<runner_ptr>& to, [[mayb
     if (!route.empty() && route != "compute" && route != "fragment") {
         return unknown_route("gl", route);
     }
-    // Part of the word, or the whole name that device() gives.
-    const bool software = contains_ignoring_case("llvmpipe", device) || contains_ignoring_case(device, "llvmpipe");
-    const gl_options context{ software ? gl_platform::osmesa : gl_platform::egl, device };
     // Nobody else's state is in a context of its own.
-    return add(to, make_gl_runner(context, { .route = route == "fragment" ? gl::route::fragment : gl::route::compute,
-                                             .restore_state = false }));
+    return add(
+        to, make_gl_runner(gl_context_of(device),
+                           { .route = route == "fragment" ? gl::route::fragment : gl::route::compute, .restore_state = false }));
 #else
     return not_built("gl");
 #endif

@@ -85,6 +85,8 @@ ao::result<runner_ptr> make_cpu_runner(const cpu::options& o = {});
 #endif
 #ifdef AO_HAS_GL
 ao::result<runner_ptr> make_gl_runner(const gl_options& context = {}, const gl::options& o = {});
+// The context that `--device` names: OSMesa's for llvmpipe or nothing, else one from EGL.
+gl_options gl_context_of(const std::string& device);
 #endif
 #ifdef AO_HAS_VK
 struct vk_runner_options {
