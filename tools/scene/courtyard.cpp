@@ -1,9 +1,13 @@
 #include "courtyard.hpp"
 
 #include "courtyard_parts.hpp"
+#include "courtyard_textures.hpp"
+#include "tangents.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace ao::tools {
 namespace {
@@ -11,13 +15,14 @@ namespace {
 using glm::vec3;
 
 constexpr float half_turn = 3.14159265f;
+constexpr float terrace_picture = 24.0f; // metres that the picture of the drifts covers
 
 void ground(mesh_builder& m, parts::dice& d)
 {
     m.begin("ground", "earth");
     m.quad({ -60.0f, -0.03f, 20.0f }, { 60.0f, -0.03f, 20.0f }, { 60.0f, -0.03f, -45.0f }, { -60.0f, -0.03f, -45.0f });
 
-    m.begin("paving", "stone");
+    m.begin("paving", "paving");
     constexpr int slabs = 16;
     constexpr float pitch = 20.0f / slabs, joint = 0.015f;
     for (int row = 0; row < slabs; ++row)
@@ -105,7 +110,7 @@ void terrace(mesh_builder& m)
         m.box({ side * 3.2f - 0.19f, 0.007f, edge + 0.01f },
               { side * 3.2f + 0.19f, floor + 0.12f, edge + tread * count + 0.12f });
 
-    m.begin("terrace", "stone");
+    m.begin("terrace", "asphalt", 1.0f / terrace_picture);
     m.box({ -12.0f, -0.05f, -15.0f }, { 12.0f, floor - 0.01f, edge });
 
     m.begin("railing left", "iron");
@@ -131,7 +136,7 @@ void terrace(mesh_builder& m)
 
 void fountain(mesh_builder& m)
 {
-    m.begin("fountain", "stone");
+    m.begin("fountain", "marble");
     const outline_point basin[] = { { 1.45f, 0.01f }, { 1.45f, 0.12f }, { 1.25f, 0.16f }, { 1.3f, 0.5f },   { 1.42f, 0.55f },
                                     { 1.42f, 0.62f }, { 1.18f, 0.62f }, { 1.14f, 0.2f },  { 0.22f, 0.18f }, { 0.14f, 0.45f },
                                     { 0.12f, 0.9f },  { 0.2f, 1.0f },   { 0.5f, 1.12f },  { 0.62f, 1.22f }, { 0.62f, 1.26f },
@@ -180,6 +185,69 @@ void distance(mesh_builder& m)
         m.box({ x - 0.5f, 7.01f, -40.9f }, { x + 0.5f, 8.0f, -40.2f });
 }
 
+// Materials for the names used above, and snow on the terrace.
+void furnish(scene& s)
+{
+    const auto texture = [&](scene_texture t) {
+        s.textures.push_back(std::move(t));
+        return static_cast<int>(s.textures.size() - 1);
+    };
+    const auto material = [&](const std::string& name) {
+        const auto found = std::find(s.material_names.begin(), s.material_names.end(), name);
+        const auto index = static_cast<std::size_t>(found - s.material_names.begin());
+        if (found == s.material_names.end())
+            s.material_names.push_back(name);
+        s.materials.resize(s.material_names.size());
+        return index;
+    };
+    const auto paint = [&](const std::string& name, const vec3& color) -> ao::standard_material& {
+        ao::standard_material& m = s.materials[material(name)];
+        m.ambient = m.diffuse = color;
+        return m;
+    };
+    paint("earth", { 0.20f, 0.16f, 0.11f });
+    paint("stone", { 0.46f, 0.44f, 0.40f });
+    paint("plaster", { 0.66f, 0.58f, 0.46f });
+    paint("wood", { 0.30f, 0.19f, 0.10f });
+    paint("clay", { 0.44f, 0.19f, 0.11f });
+
+    ao::standard_material& iron = paint("iron", { 0.05f, 0.05f, 0.06f });
+    iron.specular = vec3(0.25f);
+    iron.shininess = 24.0f;
+    ao::standard_material& marble = paint("marble", { 0.62f, 0.60f, 0.57f });
+    marble.specular = vec3(0.45f);
+    marble.shininess = 90.0f;
+
+    ao::standard_material& leaf = paint("leaf", vec3(1.0f));
+    leaf.diffuse_map = leaf.alpha_map = texture(courtyard_textures::leaf());
+
+    // One picture is four slabs of 1.25 m.
+    ao::standard_material& paving = paint("paving", vec3(1.0f));
+    paving.repeat = glm::vec2(0.2f);
+    paving.two_sided = false;
+    paving.diffuse_map = texture(courtyard_textures::paving());
+    paving.normal_map = texture(courtyard_textures::paving_normals());
+
+    ao::standard_material& asphalt = paint("asphalt", vec3(1.0f));
+    asphalt.repeat = glm::vec2(terrace_picture / 2.0f);
+    asphalt.specular = vec3(0.08f);
+    asphalt.shininess = 12.0f;
+    asphalt.diffuse_map = texture(courtyard_textures::asphalt());
+    asphalt.normal_map = texture(courtyard_textures::asphalt_normals());
+    ao::standard_material& snow = paint("snow", vec3(1.0f));
+    snow.repeat = glm::vec2(terrace_picture / 3.0f);
+    snow.diffuse_map = texture(courtyard_textures::snow());
+
+    ao::blend_node drifts;
+    drifts.first = static_cast<int>(material("asphalt"));
+    drifts.second = static_cast<int>(material("snow"));
+    drifts.mask = texture(courtyard_textures::drifts());
+    s.blends.push_back(drifts);
+    s.object_material = materials_of_objects(s);
+    const auto terrace = std::find(s.object_names.begin(), s.object_names.end(), "terrace");
+    s.object_material[static_cast<std::size_t>(terrace - s.object_names.begin())] = -1;
+}
+
 } // namespace
 
 scene courtyard()
@@ -195,6 +263,8 @@ scene courtyard()
     fountain(m);
     loose_things(m, d);
     distance(m);
+    furnish(s);
+    add_tangents(s, 0, 0);
     return s;
 }
 

@@ -144,8 +144,11 @@ void leaf(mesh_builder& m, const glm::vec3& stem, const glm::vec3& along, const 
 {
     const glm::vec3 fold = 0.25f * glm::length(across) * glm::normalize(glm::cross(along, across));
     const glm::vec3 middle = stem + 0.5f * along, tip = stem + along;
-    m.quad(stem, middle - across + fold, tip, stem + 0.5f * along - 0.02f * across);
-    m.quad(stem, stem + 0.5f * along + 0.02f * across, tip, middle + across + fold);
+    constexpr glm::vec2 at_stem{ 0.5f, 1.0f }, at_tip{ 0.5f, 0.0f };
+    m.quad({ stem, middle - across + fold, tip, stem + 0.5f * along - 0.02f * across },
+           { at_stem, glm::vec2(1.0f, 0.5f), at_tip, glm::vec2(0.51f, 0.5f) });
+    m.quad({ stem, stem + 0.5f * along + 0.02f * across, tip, middle + across + fold },
+           { at_stem, glm::vec2(0.49f, 0.5f), at_tip, glm::vec2(0.0f, 0.5f) });
 }
 
 void shrub(mesh_builder& m, dice& d, const glm::vec3& centre, float radius, int count)

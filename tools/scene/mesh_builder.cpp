@@ -1,5 +1,6 @@
 #include "mesh_builder.hpp"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -13,10 +14,20 @@ namespace {
 constexpr float full_turn = 6.28318531f;
 constexpr float sharp = 0.766f; // cosine of 40 degrees
 
+// Upright and not mirrored as seen from outside.
+glm::vec2 project(const glm::vec3& p, const glm::vec3& normal)
+{
+    const glm::vec3 size = glm::abs(normal);
+    if (size.y >= size.x && size.y >= size.z)
+        return { normal.y < 0.0f ? -p.x : p.x, p.z };
+    return { size.x >= size.z ? (normal.x < 0.0f ? p.z : -p.z) : (normal.z < 0.0f ? -p.x : p.x), -p.y };
+}
+
 } // namespace
 
-void mesh_builder::begin(std::string_view object, std::string_view material_name)
+void mesh_builder::begin(std::string_view object, std::string_view material_name, float texture_scale)
 {
+    scale = texture_scale;
     s.object_names.emplace_back(object);
     const auto found = std::find(s.material_names.begin(), s.material_names.end(), material_name);
     material = static_cast<std::uint32_t>(found - s.material_names.begin());
@@ -24,10 +35,11 @@ void mesh_builder::begin(std::string_view object, std::string_view material_name
         s.material_names.emplace_back(material_name);
 }
 
-std::uint32_t mesh_builder::vertex(const glm::vec3& position, const glm::vec3& normal)
+std::uint32_t mesh_builder::vertex(const glm::vec3& position, const glm::vec3& normal, const glm::vec2& uv)
 {
     s.positions.push_back(position);
     s.normals.push_back(normal);
+    s.uvs.push_back(uv);
     return static_cast<std::uint32_t>(s.positions.size() - 1);
 }
 
@@ -40,12 +52,18 @@ void mesh_builder::triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c)
 
 void mesh_builder::quad(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec3& d)
 {
+    const glm::vec3 normal = glm::cross(c - a, d - b);
+    quad({ a, b, c, d },
+         { scale * project(a, normal), scale * project(b, normal), scale * project(c, normal), scale * project(d, normal) });
+}
+
+void mesh_builder::quad(const std::array<glm::vec3, 4>& corners, const std::array<glm::vec2, 4>& uvs)
+{
     // By the diagonals, so that one corner may coincide with the next.
-    const glm::vec3 normal = glm::normalize(glm::cross(c - a, d - b));
-    const std::uint32_t first = vertex(a, normal);
-    vertex(b, normal);
-    vertex(c, normal);
-    vertex(d, normal);
+    const glm::vec3 normal = glm::normalize(glm::cross(corners[2] - corners[0], corners[3] - corners[1]));
+    const auto first = static_cast<std::uint32_t>(s.positions.size());
+    for (std::size_t i = 0; i < 4; ++i)
+        vertex(corners[i], normal, uvs[i]);
     triangle(first, first + 1, first + 2);
     triangle(first, first + 2, first + 3);
 }
@@ -97,8 +115,9 @@ void mesh_builder::bar(const glm::vec3& from, const glm::vec3& to, float radius,
     for (int i = 0; i <= sides; ++i) {
         const float angle = full_turn * static_cast<float>(i) / static_cast<float>(sides);
         const glm::vec3 normal = std::cos(angle) * x + std::sin(angle) * y;
-        vertex(from + radius * normal, normal);
-        vertex(to + radius * normal, normal);
+        const float round = scale * radius * angle;
+        vertex(from + radius * normal, normal, { round, 0.0f });
+        vertex(to + radius * normal, normal, { round, -scale * glm::length(to - from) });
     }
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(sides); ++i) {
         const std::uint32_t a = first + 2 * i;
@@ -122,7 +141,13 @@ void mesh_builder::lathe(const glm::vec3& foot, std::span<const outline_point> o
         return glm::dot(own, other) > sharp ? glm::normalize(own + other) : own;
     };
 
+    float widest = 0.0f;
+    for (const outline_point& p : outline)
+        widest = std::max(widest, p.radius);
+    float along = 0.0f;
     for (std::size_t segment = 0; segment + 1 < outline.size(); ++segment) {
+        const float length = glm::length(glm::vec2(outline[segment + 1].radius - outline[segment].radius,
+                                                   outline[segment + 1].height - outline[segment].height));
         const glm::vec3 normals[2] = { end_normal(segment, segment - 1), end_normal(segment, segment + 1) };
         const auto first = static_cast<std::uint32_t>(s.positions.size());
         for (int i = 0; i <= sides; ++i) {
@@ -131,9 +156,12 @@ void mesh_builder::lathe(const glm::vec3& foot, std::span<const outline_point> o
             for (std::size_t end = 0; end < 2; ++end) {
                 const outline_point& p = outline[segment + end];
                 vertex(foot + glm::vec3(p.radius * c, p.height, -p.radius * n),
-                       glm::vec3(normals[end].x * c, normals[end].y, -normals[end].x * n));
+                       glm::vec3(normals[end].x * c, normals[end].y, -normals[end].x * n),
+                       scale * glm::vec2(widest * full_turn * static_cast<float>(i) / static_cast<float>(sides),
+                                         end == 0 ? -along : -along - length));
             }
         }
+        along += length;
         for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(sides); ++i) {
             const std::uint32_t a = first + 2 * i;
             if (outline[segment].radius > 0.0f)
@@ -154,7 +182,7 @@ void mesh_builder::sheet(const std::function<glm::vec3(float u, float v)>& surfa
             const float v = static_cast<float>(row) / static_cast<float>(rows);
             const glm::vec3 du = surface(u + step, v) - surface(u - step, v);
             const glm::vec3 dv = surface(u, v + step) - surface(u, v - step);
-            vertex(surface(u, v), glm::normalize(glm::cross(du, dv)));
+            vertex(surface(u, v), glm::normalize(glm::cross(du, dv)), scale * glm::vec2(u, 1.0f - v));
         }
     const auto stride = static_cast<std::uint32_t>(columns + 1);
     for (std::uint32_t row = 0; row < static_cast<std::uint32_t>(rows); ++row)

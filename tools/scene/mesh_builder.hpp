@@ -2,6 +2,7 @@
 
 #include "scene.hpp"
 
+#include <array>
 #include <functional>
 #include <span>
 #include <string_view>
@@ -15,15 +16,19 @@ struct outline_point {
 };
 
 // Adds shapes to a scene, each to the object and material named last. Units and axes are the scene's; Y is up.
+// Texture coordinates are lengths times a scale: of flat faces the position along the two axes that the face leans to most, so
+// that pictures go on from face to face; of bars, turned outlines and sheets the way round or across and along.
 class mesh_builder {
 public:
     explicit mesh_builder(scene& to) : s(to) {}
 
     // A new object. A material of the same name is used again.
-    void begin(std::string_view object, std::string_view material);
+    void begin(std::string_view object, std::string_view material, float texture_scale = 1.0f);
 
     // Corners in order round the rim, any plane quadrilateral; flat normal.
     void quad(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec3& d);
+    // With a place in the picture for each, (0, 0) top left.
+    void quad(const std::array<glm::vec3, 4>& corners, const std::array<glm::vec2, 4>& uvs);
 
     // Between two opposite corners.
     void box(const glm::vec3& low, const glm::vec3& high);
@@ -45,11 +50,12 @@ public:
     void sheet(const std::function<glm::vec3(float u, float v)>& surface, int columns, int rows);
 
 private:
-    std::uint32_t vertex(const glm::vec3& position, const glm::vec3& normal);
+    std::uint32_t vertex(const glm::vec3& position, const glm::vec3& normal, const glm::vec2& uv);
     void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
 
     scene& s;
     std::uint32_t material = 0;
+    float scale = 1.0f;
 };
 
 } // namespace ao::tools
