@@ -23,15 +23,16 @@ inline ao::host::vulkan_device& device()
     return **made;
 }
 
-inline void check_silence()
+inline void check_silence(const ao::host::vulkan_device& of = device())
 {
-    CHECK_THAT(device().messages(), Catch::Matchers::Equals(std::vector<std::string>{}));
+    CHECK_THAT(of.messages(), Catch::Matchers::Equals(std::vector<std::string>{}));
 }
 
 // Its content is undefined.
-inline ao::host::vulkan_image make_image(ao::pixel_format format, int width, int height, VkImageLayout layout)
+inline ao::host::vulkan_image make_image(ao::pixel_format format, int width, int height, VkImageLayout layout,
+                                         ao::host::vulkan_device& on = device())
 {
-    auto made = ao::host::vulkan_image::create(device(), format, { static_cast<unsigned>(width), static_cast<unsigned>(height) });
+    auto made = ao::host::vulkan_image::create(on, format, { static_cast<unsigned>(width), static_cast<unsigned>(height) });
     REQUIRE(made);
     REQUIRE(made->transition(layout));
     return std::move(*made);

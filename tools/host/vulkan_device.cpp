@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstring>
+#include <initializer_list>
 
 namespace ao::host {
 namespace {
@@ -126,7 +127,7 @@ int find_queue_family(VkPhysicalDevice physical)
     return -1;
 }
 
-VkPhysicalDeviceFeatures useful_features(VkPhysicalDevice physical)
+VkPhysicalDeviceFeatures useful_features(VkPhysicalDevice physical, bool drawing)
 {
     VkPhysicalDeviceFeatures has{};
     vkGetPhysicalDeviceFeatures(physical, &has);
@@ -136,7 +137,48 @@ VkPhysicalDeviceFeatures useful_features(VkPhysicalDevice physical)
     on.shaderStorageImageWriteWithoutFormat = has.shaderStorageImageWriteWithoutFormat;
     on.fragmentStoresAndAtomics = has.fragmentStoresAndAtomics;
     on.vertexPipelineStoresAndAtomics = has.vertexPipelineStoresAndAtomics;
+    on.multiDrawIndirect = drawing && has.multiDrawIndirect;
+    on.drawIndirectFirstInstance = drawing && has.drawIndirectFirstInstance;
     return on;
+}
+
+// Extensions to create a device with, and the features that go with them.
+struct drawing_extensions {
+    std::vector<const char*> names;
+    VkPhysicalDeviceDynamicRenderingFeatures rendering{};
+    VkPhysicalDeviceExtendedDynamicStateFeaturesEXT state{};
+
+    // Whether the device has all of these and says that the feature in `of` is there.
+    template <class Features>
+    bool add(VkPhysicalDevice physical, const std::vector<VkExtensionProperties>& offered, Features& of, VkStructureType type,
+             VkBool32 Features::*feature, std::initializer_list<const char*> wanted)
+    {
+        for (const char* name : wanted)
+            if (std::none_of(offered.begin(), offered.end(),
+                             [&](const VkExtensionProperties& e) { return std::strcmp(e.extensionName, name) == 0; }))
+                return false;
+        of.sType = type;
+        VkPhysicalDeviceFeatures2 features{};
+        features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+        features.pNext = &of;
+        vkGetPhysicalDeviceFeatures2(physical, &features);
+        if (!(of.*feature))
+            return false;
+        names.insert(names.end(), wanted.begin(), wanted.end());
+        of.pNext = chain;
+        chain = &of;
+        return true;
+    }
+    void* chain = nullptr;
+};
+
+std::vector<VkExtensionProperties> offered_extensions(VkPhysicalDevice physical)
+{
+    uint32_t count = 0;
+    vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> offered(count);
+    vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, offered.data());
+    return offered;
 }
 }
 
@@ -158,7 +200,7 @@ result<std::unique_ptr<vulkan_device>> vulkan_device::create(const vulkan_option
         return failure{ chosen.reason() };
     self->physical = chosen->device;
     self->properties = chosen->properties;
-    self->features = useful_features(self->physical);
+    self->features = useful_features(self->physical, options.drawing_features);
 
     const int family = find_queue_family(self->physical);
     if (family < 0)
@@ -176,6 +218,22 @@ result<std::unique_ptr<vulkan_device>> vulkan_device::create(const vulkan_option
     device_info.queueCreateInfoCount = 1;
     device_info.pQueueCreateInfos = &queue_info;
     device_info.pEnabledFeatures = &self->features;
+    drawing_extensions drawing;
+    if (options.drawing_features) {
+        const auto offered = offered_extensions(self->physical);
+        self->dynamic_rendering =
+            drawing.add(self->physical, offered, drawing.rendering, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES,
+                        &VkPhysicalDeviceDynamicRenderingFeatures::dynamicRendering,
+                        { VK_KHR_DYNAMIC_RENDERING_EXTENSION_NAME, VK_KHR_DEPTH_STENCIL_RESOLVE_EXTENSION_NAME,
+                          VK_KHR_CREATE_RENDERPASS_2_EXTENSION_NAME });
+        self->extended_dynamic_state = drawing.add(self->physical, offered, drawing.state,
+                                                   VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_EXTENDED_DYNAMIC_STATE_FEATURES_EXT,
+                                                   &VkPhysicalDeviceExtendedDynamicStateFeaturesEXT::extendedDynamicState,
+                                                   { VK_EXT_EXTENDED_DYNAMIC_STATE_EXTENSION_NAME });
+    }
+    device_info.pNext = drawing.chain;
+    device_info.enabledExtensionCount = static_cast<uint32_t>(drawing.names.size());
+    device_info.ppEnabledExtensionNames = drawing.names.data();
     if (const VkResult code = vkCreateDevice(self->physical, &device_info, nullptr, &self->device); code != VK_SUCCESS)
         return vulkan_failure("vkCreateDevice", code);
     vkGetDeviceQueue(self->device, self->queue_family, 0, &self->queue);

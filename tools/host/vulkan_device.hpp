@@ -17,6 +17,9 @@ struct vulkan_options {
     std::string device;
     // The validation layer with synchronisation validation. A missing layer is a failure, not a silent no.
     bool validation = false;
+    // What Vulkan 1.1 has as an extension or an optional feature of drawing, where the device offers it: dynamic rendering,
+    // extended dynamic state, indirect draws of several and of instances from anywhere.
+    bool drawing_features = true;
 };
 
 class vulkan_messages;
@@ -35,8 +38,10 @@ public:
     VkQueue queue = VK_NULL_HANDLE;
     uint32_t queue_family = 0;
     VkPhysicalDeviceProperties properties{};
-    // What was switched on; nothing outside Vulkan 1.1 core, and only what the device has.
+    // What was switched on; only what the device has.
     VkPhysicalDeviceFeatures features{};
+    bool dynamic_rendering = false;      // VK_KHR_dynamic_rendering
+    bool extended_dynamic_state = false; // VK_EXT_extended_dynamic_state
 
     std::string_view name() const { return properties.deviceName; }
 

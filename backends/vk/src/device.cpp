@@ -24,6 +24,18 @@ const char* load(functions& f, const context& c)
     }
     AO_VK_DEVICE_FUNCTIONS(AO_VK_LOAD)
 #undef AO_VK_LOAD
+#define AO_VK_LOAD(name, suffix, feature)                                                                                        \
+    if (c.enabled.feature) {                                                                                                     \
+        f.name = reinterpret_cast<PFN_vk##name>(f.GetDeviceProcAddr(c.device, "vk" #name #suffix));                              \
+        if (f.name == nullptr) {                                                                                                 \
+            f.name = reinterpret_cast<PFN_vk##name>(f.GetDeviceProcAddr(c.device, "vk" #name));                                  \
+        }                                                                                                                        \
+        if (f.name == nullptr) {                                                                                                 \
+            return "vk" #name;                                                                                                   \
+        }                                                                                                                        \
+    }
+    AO_VK_OPTIONAL_FUNCTIONS(AO_VK_LOAD)
+#undef AO_VK_LOAD
     return nullptr;
 }
 

@@ -17,9 +17,17 @@
     X(AllocateMemory)                                                                                                            \
     X(BindBufferMemory)                                                                                                          \
     X(BindImageMemory)                                                                                                           \
+    X(CmdBeginRenderPass)                                                                                                        \
     X(CmdBindDescriptorSets)                                                                                                     \
+    X(CmdBindIndexBuffer)                                                                                                        \
     X(CmdBindPipeline)                                                                                                           \
+    X(CmdBindVertexBuffers)                                                                                                      \
+    X(CmdCopyBuffer)                                                                                                             \
+    X(CmdCopyBufferToImage)                                                                                                      \
     X(CmdDispatch)                                                                                                               \
+    X(CmdDrawIndexed)                                                                                                            \
+    X(CmdDrawIndexedIndirect)                                                                                                    \
+    X(CmdEndRenderPass)                                                                                                          \
     X(CmdPipelineBarrier)                                                                                                        \
     X(CmdPushConstants)                                                                                                          \
     X(CmdUpdateBuffer)                                                                                                           \
@@ -28,18 +36,25 @@
     X(CreateComputePipelines)                                                                                                    \
     X(CreateDescriptorPool)                                                                                                      \
     X(CreateDescriptorSetLayout)                                                                                                 \
+    X(CreateFramebuffer)                                                                                                         \
+    X(CreateGraphicsPipelines)                                                                                                   \
     X(CreateImage)                                                                                                               \
     X(CreateImageView)                                                                                                           \
     X(CreatePipelineLayout)                                                                                                      \
+    X(CreateRenderPass)                                                                                                          \
+    X(CreateSampler)                                                                                                             \
     X(CreateShaderModule)                                                                                                        \
     X(DestroyBuffer)                                                                                                             \
     X(DestroyBufferView)                                                                                                         \
     X(DestroyDescriptorPool)                                                                                                     \
     X(DestroyDescriptorSetLayout)                                                                                                \
+    X(DestroyFramebuffer)                                                                                                        \
     X(DestroyImage)                                                                                                              \
     X(DestroyImageView)                                                                                                          \
     X(DestroyPipeline)                                                                                                           \
     X(DestroyPipelineLayout)                                                                                                     \
+    X(DestroyRenderPass)                                                                                                         \
+    X(DestroySampler)                                                                                                            \
     X(DestroyShaderModule)                                                                                                       \
     X(FreeMemory)                                                                                                                \
     X(GetBufferMemoryRequirements)                                                                                               \
@@ -48,12 +63,21 @@
     X(UnmapMemory)                                                                                                               \
     X(UpdateDescriptorSets)
 
+// Of what context::enabled names: an extension's entry points, or those of the version that it became part of.
+#define AO_VK_OPTIONAL_FUNCTIONS(X)                                                                                              \
+    X(CmdBeginRendering, KHR, dynamic_rendering)                                                                                 \
+    X(CmdEndRendering, KHR, dynamic_rendering)                                                                                   \
+    X(CmdSetCullMode, EXT, extended_dynamic_state)                                                                               \
+    X(CmdSetDepthCompareOp, EXT, extended_dynamic_state)                                                                         \
+    X(CmdSetFrontFace, EXT, extended_dynamic_state)
+
 namespace ao::vk {
 
 struct functions {
-#define AO_VK_MEMBER(name) PFN_vk##name name = nullptr;
+#define AO_VK_MEMBER(name, ...) PFN_vk##name name = nullptr;
     AO_VK_INSTANCE_FUNCTIONS(AO_VK_MEMBER)
     AO_VK_DEVICE_FUNCTIONS(AO_VK_MEMBER)
+    AO_VK_OPTIONAL_FUNCTIONS(AO_VK_MEMBER)
 #undef AO_VK_MEMBER
 };
 

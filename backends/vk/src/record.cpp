@@ -1,4 +1,5 @@
 #include "program.hpp"
+#include "support.hpp"
 
 #include <cassert>
 
@@ -74,10 +75,7 @@ void backend::record_pass(VkCommandBuffer buffer, program& p, binding& b, const 
         show_writes(d, buffer, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
     }
     else if (const VkPipelineStageFlags readers = d.host.readers; readers != 0) {
-        constexpr VkPipelineStageFlags shaders = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
-        const VkAccessFlags in_shaders = (readers & shaders) != 0 ? VK_ACCESS_SHADER_READ_BIT : 0;
-        const VkAccessFlags in_copies = (readers & VK_PIPELINE_STAGE_TRANSFER_BIT) != 0 ? VK_ACCESS_TRANSFER_READ_BIT : 0;
-        show_writes(d, buffer, readers, in_shaders | in_copies);
+        show_writes(d, buffer, readers, access_of(readers));
     }
 }
 

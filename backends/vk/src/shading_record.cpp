@@ -1,4 +1,5 @@
 #include "shading_state.hpp"
+#include "support.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -127,10 +128,7 @@ void upload_table(const device& d, VkCommandBuffer commands, shade_program_state
 void end_frame(const device& d, VkCommandBuffer commands)
 {
     const VkPipelineStageFlags readers = d.host.readers;
-    constexpr VkPipelineStageFlags shaders = compute | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
-    VkAccessFlags access = VK_ACCESS_HOST_READ_BIT;
-    access |= (readers & shaders) != 0 ? VK_ACCESS_SHADER_READ_BIT : 0;
-    access |= (readers & VK_PIPELINE_STAGE_TRANSFER_BIT) != 0 ? VK_ACCESS_TRANSFER_READ_BIT : 0;
+    const VkAccessFlags access = access_of(readers) | VK_ACCESS_HOST_READ_BIT;
     const VkMemoryBarrier memory = memory_barrier(VK_ACCESS_SHADER_WRITE_BIT, access);
     d.call.CmdPipelineBarrier(commands, compute, readers | VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &memory, 0, nullptr, 0, nullptr);
 }

@@ -1,5 +1,6 @@
 #include "support.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace ao::vk {
@@ -61,6 +62,13 @@ bool can_store(const device& d, pixel_format format)
            (base || d.features.shaderStorageImageExtendedFormats != VK_FALSE);
 }
 
+bool can_draw(const device& d, pixel_format format)
+{
+    const bool depth = format == pixel_format::d32f || format == pixel_format::d24;
+    return has(d, native_format(format),
+               depth ? VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT);
+}
+
 error lacks(const char* what, pixel_format format)
 {
     char text[128];
@@ -68,26 +76,54 @@ error lacks(const char* what, pixel_format format)
     return error(errc::unsupported_format, text);
 }
 
-std::optional<error> wrong_size(const device& d, int picture_width, int picture_height)
+namespace {
+
+std::optional<error> beyond(int width, int height, std::uint32_t most_wide, std::uint32_t most_high)
+{
+    if (static_cast<std::uint32_t>(width) <= most_wide && static_cast<std::uint32_t>(height) <= most_high) {
+        return std::nullopt;
+    }
+    char text[160];
+    std::snprintf(text, sizeof text, "picture of %dx%d exceeds the Vulkan device's limit of %u pixels a side", width, height,
+                  std::min(most_wide, most_high));
+    return error(errc::invalid_size, text);
+}
+
+} // namespace
+
+std::optional<error> wrong_size(const device& d, int width, int height)
 {
     const VkPhysicalDeviceLimits& limits = d.properties.limits;
-    const auto width = static_cast<std::uint32_t>(picture_width);
-    const auto height = static_cast<std::uint32_t>(picture_height);
-    char text[160];
-    if (width > limits.maxImageDimension2D || height > limits.maxImageDimension2D) {
-        std::snprintf(text, sizeof text, "picture of %ux%u exceeds the Vulkan device's limit of %u pixels a side", width, height,
-                      limits.maxImageDimension2D);
-        return error(errc::invalid_size, text);
+    if (const auto wrong = beyond(width, height, limits.maxImageDimension2D, limits.maxImageDimension2D)) {
+        return wrong;
     }
     const group_size group = d.host.group;
-    if ((width - 1) / group.x >= limits.maxComputeWorkGroupCount[0] ||
-        (height - 1) / group.y >= limits.maxComputeWorkGroupCount[1]) {
+    if ((static_cast<std::uint32_t>(width) - 1) / group.x >= limits.maxComputeWorkGroupCount[0] ||
+        (static_cast<std::uint32_t>(height) - 1) / group.y >= limits.maxComputeWorkGroupCount[1]) {
+        char text[160];
         std::snprintf(text, sizeof text,
-                      "picture of %ux%u takes more compute groups of %ux%u than the Vulkan device can dispatch", width, height,
+                      "picture of %dx%d takes more compute groups of %ux%u than the Vulkan device can dispatch", width, height,
                       group.x, group.y);
         return error(errc::invalid_size, text);
     }
     return std::nullopt;
+}
+
+std::optional<error> wrong_attachment_size(const device& d, int width, int height)
+{
+    const VkPhysicalDeviceLimits& limits = d.properties.limits;
+    const auto most = [&](std::uint32_t framebuffer, std::uint32_t viewport) {
+        return std::min({ limits.maxImageDimension2D, framebuffer, viewport });
+    };
+    return beyond(width, height, most(limits.maxFramebufferWidth, limits.maxViewportDimensions[0]),
+                  most(limits.maxFramebufferHeight, limits.maxViewportDimensions[1]));
+}
+
+VkAccessFlags access_of(VkPipelineStageFlags readers)
+{
+    constexpr VkPipelineStageFlags shaders = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
+    return ((readers & shaders) != 0 ? static_cast<VkAccessFlags>(VK_ACCESS_SHADER_READ_BIT) : 0) |
+           ((readers & VK_PIPELINE_STAGE_TRANSFER_BIT) != 0 ? static_cast<VkAccessFlags>(VK_ACCESS_TRANSFER_READ_BIT) : 0);
 }
 
 } // namespace ao::vk

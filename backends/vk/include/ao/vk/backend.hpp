@@ -50,6 +50,15 @@ struct group_size {
     std::uint32_t y = 0;
 };
 
+// What of these the host switched on when it created the device; only the rasterizer asks. Without any it draws the same picture
+// by render passes, direct draws and more pipelines.
+struct enabled_features {
+    bool dynamic_rendering = false;            // VK_KHR_dynamic_rendering, or Vulkan 1.3's feature
+    bool extended_dynamic_state = false;       // VK_EXT_extended_dynamic_state's feature, or a device of Vulkan 1.3
+    bool multi_draw_indirect = false;          // VkPhysicalDeviceFeatures::multiDrawIndirect
+    bool draw_indirect_first_instance = false; // VkPhysicalDeviceFeatures::drawIndirectFirstInstance
+};
+
 // What the host owns and lends; it outlives the backend and everything made with it.
 struct context {
     VkInstance instance = VK_NULL_HANDLE;
@@ -58,10 +67,11 @@ struct context {
     PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
     VkPipelineCache pipeline_cache = VK_NULL_HANDLE; // optional; prepare() uses it
     group_size group;
-    // Stages that the visibility is made visible to at the end: some of these three, or 0 where the host's own barrier
+    // Stages that what was written is made visible to at the end: some of these three, or 0 where the host's own barrier
     // follows. On a queue without graphics leave FRAGMENT_SHADER out.
     VkPipelineStageFlags readers =
         VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
+    enabled_features enabled;
 };
 
 struct image {
