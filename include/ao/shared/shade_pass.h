@@ -183,7 +183,7 @@ AO_PASS vec3 ao_run_program(ao_shade_constants c, uint first, uint count, ao_sur
         }
         else {
             real b = real(0);
-            if (detail != uint(0)) {
+            if (ao_use_maps && detail != uint(0)) {
                 b = ao_sample(detail - uint(1), s.uv, s.footprint).x;
             }
             else {
