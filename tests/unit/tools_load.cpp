@@ -92,7 +92,10 @@ TEST_CASE("a child's crash, endless loop, error and answer reach the parent", "[
 
 TEST_CASE("a scene survives the way between processes", "[tools][apart]")
 {
-    const scene s = courtyard();
+    scene s = courtyard();
+    s.textures[1].missing = true;
+    s.textures[2].wrap_v = ao::wrap_mode::mirror;
+    s.warnings = { "one", "", "three" };
     const std::string bytes = to_bytes(s);
     const scene again = scene_from_bytes(bytes);
     CHECK(again.positions == s.positions);
@@ -100,8 +103,22 @@ TEST_CASE("a scene survives the way between processes", "[tools][apart]")
     CHECK(again.object == s.object);
     CHECK(again.object_names == s.object_names);
     CHECK(again.material_names == s.material_names);
+    CHECK(again.uvs == s.uvs);
+    CHECK(again.tangents == s.tangents);
+    CHECK(again.object_material == s.object_material);
+    CHECK(again.warnings == s.warnings);
+    CHECK(to_bytes(again) == bytes);
+    REQUIRE(again.textures.size() == s.textures.size());
+    for (std::size_t i = 0; i < s.textures.size(); ++i) {
+        CHECK(again.textures[i].name == s.textures[i].name);
+        CHECK(again.textures[i].srgb == s.textures[i].srgb);
+        CHECK(again.textures[i].wrap_v == s.textures[i].wrap_v);
+        CHECK(again.textures[i].rgba == s.textures[i].rgba);
+        CHECK(again.textures[i].missing == s.textures[i].missing);
+    }
     CHECK_THROWS_AS(scene_from_bytes(bytes.substr(0, bytes.size() - 1)), error);
-    CHECK_THROWS_AS(scene_from_bytes(bytes.substr(0, 100)), error);
+    for (std::size_t size = 0; size < bytes.size(); size += 1 + bytes.size() / 37)
+        CHECK_THROWS_AS(scene_from_bytes(bytes.substr(0, size)), error);
 }
 
 TEST_CASE("polygons become triangles, missing normals those of the faces", "[tools][load]")
@@ -145,6 +162,15 @@ TEST_CASE("node transforms reach positions and normals", "[tools][load]")
     CHECK(b.high == glm::vec3(7.0f, 1.0f, 0.0f));
     CHECK(s.object_names == std::vector<std::string>{ "moved" });
     CHECK(glm::length(s.normals[0] - glm::vec3(0.0f, 0.0f, 1.0f)) < 1e-6f);
+}
+
+TEST_CASE("vertices with different texture coordinates stay apart", "[tools][load]")
+{
+    const scratch_directory dir;
+    // Two triangles of one plane that share an edge, once with the same coordinates there, once with others.
+    const std::string vertices = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0.5 0.25\n";
+    CHECK(load_model(dir.file("joined.obj", vertices + "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n")).positions.size() == 4);
+    CHECK(load_model(dir.file("apart.obj", vertices + "f 1/1 2/2 3/3\nf 1/4 3/2 4/4\n")).positions.size() == 6);
 }
 
 TEST_CASE("triangles without area are counted", "[tools][load]")

@@ -1,8 +1,11 @@
 #include "tools_support.hpp"
 
+#include "ao/scene_check.hpp"
 #include "scene/courtyard.hpp"
+#include "scene/drawn.hpp"
 #include "scene/error.hpp"
 #include "scene/gbuffer.hpp"
+#include "scene/tangents.hpp"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
@@ -78,7 +81,115 @@ TEST_CASE("a damaged scene is refused", "[tools][scene]")
     {
         s.object[0] = 7;
     }
+    SECTION("texture coordinate")
+    {
+        s.uvs[3].x = std::numeric_limits<float>::infinity();
+    }
+    SECTION("texture coordinates")
+    {
+        s.uvs.pop_back();
+    }
+    SECTION("two materials")
+    {
+        s.material_names.push_back("other");
+        s.material[1] = 1;
+    }
+    SECTION("no such blend")
+    {
+        s.object_material = { -1 };
+    }
+    SECTION("texels")
+    {
+        s.textures.push_back({ "t", 2, 2, false, {}, {}, std::vector<std::uint8_t>(15), false });
+    }
+    SECTION("size of a texture")
+    {
+        s.textures.push_back({ "t", 0, 2, false, {}, {}, {}, false });
+    }
     CHECK_THROWS_AS(check(s), error);
+}
+
+TEST_CASE("the view of a scene has its triangles, object by object", "[tools][scene]")
+{
+    const scene s = courtyard();
+    const scene_view view(s);
+    const ao::scene seen = view.get();
+    REQUIRE_FALSE(ao::validate(seen));
+    REQUIRE(seen.objects.size() == s.object_names.size());
+    REQUIRE(seen.meshes.size() == s.object_names.size());
+    const std::vector<int> materials = materials_of_objects(s);
+    std::vector<std::size_t> next(seen.meshes.size());
+    for (std::size_t t = 0; t < s.triangles.size(); ++t) {
+        const std::uint32_t object = s.object[t];
+        const ao::mesh& m = seen.meshes[object];
+        REQUIRE(seen.objects[object].mesh == static_cast<int>(object));
+        REQUIRE(seen.objects[object].material == materials[object]);
+        for (int corner = 0; corner < 3; ++corner) {
+            const std::uint32_t v = s.triangles[t][corner];
+            const std::uint32_t drawn = m.indices[next[object]++];
+            REQUIRE(m.positions[drawn] == s.positions[v]);
+            REQUIRE(m.normals[drawn] == s.normals[v]);
+            REQUIRE(m.uvs[drawn] == s.uvs[v]);
+            REQUIRE(m.tangents[drawn] == s.tangents[v]);
+        }
+    }
+    for (std::size_t i = 0; i < next.size(); ++i)
+        CHECK(next[i] == seen.meshes[i].indices.size());
+    // The terrace is the one blend, of asphalt and snow.
+    CHECK(std::count(materials.begin(), materials.end(), -1) == 1);
+    REQUIRE(seen.blends.size() == 1);
+    CHECK(s.material_names[static_cast<std::size_t>(seen.blends[0].first)] == "asphalt");
+    CHECK(s.material_names[static_cast<std::size_t>(seen.blends[0].second)] == "snow");
+}
+
+TEST_CASE("the view takes objects whose triangles are scattered, or that have none", "[tools][scene]")
+{
+    scene s;
+    mesh_builder m(s);
+    m.begin("one", "any");
+    m.quad({ 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 });
+    m.begin("none", "other");
+    m.begin("two", "other");
+    m.quad({ 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 });
+    std::swap(s.triangles[1], s.triangles[2]);
+    std::swap(s.object[1], s.object[2]);
+    std::swap(s.material[1], s.material[2]);
+    s.object_has_uvs = { 1, 1, 0 };
+    check(s);
+    const scene_view view(s);
+    const ao::scene seen = view.get();
+    CHECK_FALSE(ao::validate(seen));
+    REQUIRE(seen.objects.size() == 3);
+    CHECK(seen.meshes[0].indices.size() == 6);
+    CHECK(seen.meshes[1].indices.empty());
+    CHECK(seen.meshes[2].indices.size() == 6);
+    CHECK(seen.meshes[0].uvs.size() == 4);
+    CHECK(seen.meshes[2].uvs.empty());
+    CHECK(seen.objects[1].material == 0);
+    CHECK(seen.objects[2].material == 1);
+    for (const std::uint32_t i : seen.meshes[2].indices)
+        CHECK(seen.meshes[2].positions[i].z == 1.0f);
+    CHECK(seen.materials.size() == 2);
+}
+
+TEST_CASE("faces are covered by pictures the right way round", "[tools][scene]")
+{
+    scene s;
+    mesh_builder m(s);
+    m.begin("box", "any");
+    m.box({ -1.0f, -2.0f, -3.0f }, { 1.0f, 2.0f, 3.0f });
+    m.begin("round", "any");
+    const outline_point outline[] = { { 1.0f, 0.0f }, { 1.2f, 0.5f }, { 0.5f, 1.0f } };
+    m.lathe({ 0.0f, 0.0f, 0.0f }, outline, 12);
+    m.bar({ 0.0f, 0.0f, 0.0f }, { 0.0f, 2.0f, 0.0f }, 0.1f, 8);
+    add_tangents(s, 0, 0);
+    check(s);
+    for (std::size_t i = 0; i < s.tangents.size(); ++i) {
+        CHECK(s.tangents[i].w == 1.0f);
+        const glm::vec3 up = glm::cross(s.normals[i], glm::vec3(s.tangents[i]));
+        if (std::abs(s.normals[i].y) < 0.5f)
+            CHECK(up.y > 0.5f);
+    }
 }
 
 TEST_CASE("a scene of degenerate triangles has no ray tree", "[tools][scene]")
