@@ -3,6 +3,8 @@
 #include "unit/raster_cases.hpp"
 #include "unit/vk_pictures.hpp"
 
+#include <array>
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -111,6 +113,32 @@ vk_drawn draw(ao::host::vulkan_device& on, ao::vk::rasterizer& vk, const ao::sce
 draw_function draw_with(ao::host::vulkan_device& on, ao::vk::rasterizer& vk)
 {
     return [&](const auto& s, const auto& f, const auto& c) { return draw(on, vk, s, f, c); };
+}
+
+void VKAPI_PTR no_x8_d24(VkPhysicalDevice physical, VkFormat format, VkFormatProperties* properties)
+{
+    vkGetPhysicalDeviceFormatProperties(physical, format, properties);
+    if (format == VK_FORMAT_X8_D24_UNORM_PACK32) {
+        properties->optimalTilingFeatures = 0;
+    }
+}
+
+void VKAPI_PTR four_attachments(VkPhysicalDevice physical, VkPhysicalDeviceProperties* properties)
+{
+    vkGetPhysicalDeviceProperties(physical, properties);
+    properties->limits.maxColorAttachments = 4;
+}
+
+// The loader of a device that has less than this one.
+PFN_vkVoidFunction VKAPI_PTR poor_loader(VkInstance instance, const char* name)
+{
+    if (std::strcmp(name, "vkGetPhysicalDeviceFormatProperties") == 0) {
+        return reinterpret_cast<PFN_vkVoidFunction>(no_x8_d24);
+    }
+    if (std::strcmp(name, "vkGetPhysicalDeviceProperties") == 0) {
+        return reinterpret_cast<PFN_vkVoidFunction>(four_attachments);
+    }
+    return vkGetInstanceProcAddr(instance, name);
 }
 
 } // namespace
@@ -345,6 +373,37 @@ TEST_CASE("Vulkan's rasterizer refuses what no longer fits the plan, and says wh
     incomplete.device = VK_NULL_HANDLE;
     CHECK(ao::vk::rasterizer::create(incomplete).error().code() == ao::errc::device);
     check_silence();
+}
+
+TEST_CASE("what a poorer Vulkan device cannot draw is named")
+{
+    using Catch::Matchers::Contains;
+    world w = plain_world();
+    ao::vk::context c = vk_runner::context_of(device());
+    c.get_instance_proc_addr = poor_loader;
+    auto vk = ao::vk::rasterizer::create(c);
+    REQUIRE(vk);
+    const auto reason = [&](const ao::gbuffer_facts& f) {
+        const auto plan = ao::plan_drawing(w.get(), f);
+        REQUIRE(plan);
+        const auto model = vk->load(w.get(), *plan);
+        return model ? std::string() : std::string(model.error().reason());
+    };
+    ao::gbuffer_facts f = all_targets();
+    CHECK_THAT(reason(f), Contains("5 color attachments") && Contains("has 4"));
+    // Those that the plan leaves out take none, wherever they stand.
+    f.position = false;
+    CHECK(reason(f).empty());
+    f.depth_format = pixel_format::d24;
+    CHECK_THAT(reason(f), Contains("draw to d24"));
+
+    c = vk_runner::context_of(plain_device());
+    c.enabled.dynamic_rendering = true;
+    const auto refused = ao::vk::rasterizer::create(c);
+    REQUIRE_FALSE(refused);
+    CHECK_THAT(std::string(refused.error().reason()), Contains("vkCmdBeginRendering"));
+    check_silence();
+    check_silence(plain_device());
 }
 
 TEST_CASE("a million objects are drawn by Vulkan, each with its own transform and id; an empty scene clears")
