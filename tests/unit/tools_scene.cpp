@@ -192,6 +192,51 @@ TEST_CASE("faces are covered by pictures the right way round", "[tools][scene]")
     }
 }
 
+TEST_CASE("rays pass through holes that alpha cuts", "[tools][gbuffer]")
+{
+    // A floor 2 x 2 whose picture is opaque on the left only, over a larger solid one.
+    scene s;
+    mesh_builder m(s);
+    m.begin("cut", "cut", 0.5f);
+    m.quad({ -1.0f, 1.0f, 1.0f }, { 1.0f, 1.0f, 1.0f }, { 1.0f, 1.0f, -1.0f }, { -1.0f, 1.0f, -1.0f });
+    m.begin("solid", "solid");
+    m.quad({ -4.0f, 0.0f, 4.0f }, { 4.0f, 0.0f, 4.0f }, { 4.0f, 0.0f, -4.0f }, { -4.0f, 0.0f, -4.0f });
+    scene_texture t{ "half", 2, 1, false, {}, {}, { 255, 0, 0, 0, 0, 255, 255, 255 }, false };
+    const bool from_red = GENERATE(false, true);
+    const bool in_blend = GENERATE(false, true);
+    s.textures.push_back(t);
+    s.materials.resize(2);
+    s.materials[0].alpha_map = 0;
+    s.materials[0].alpha_from_red = from_red;
+    if (in_blend) {
+        s.blends.push_back({ 0, 1, 0.5f, ao::no_texture });
+        s.object_material = { -1, 1 };
+    }
+    REQUIRE_FALSE(ao::validate(scene_view(s).get()));
+    const ray_tree tree(s);
+    const camera c = camera_above(0.0f, 3.0f, 0.0f, 40.0f);
+    const gbuffer g = trace_gbuffer(s, tree, c, perspective(c, 1.0f, { 0.1f, 10.0f }), 32, 32);
+    std::size_t upper = 0, through = 0;
+    for (std::size_t i = 0; i < g.size(); ++i) {
+        REQUIRE(g.hit[i] == 1);
+        // Where this ray meets the upper floor, in its picture: u = x / 2, repeated; texel centres at 1/4 and 3/4, between
+        // them alpha goes from one to the other. Red and alpha are each other's opposite.
+        const double x = static_cast<double>(g.world[i].x) * 2.0 / (3.0 - static_cast<double>(g.world[i].y));
+        const double z = static_cast<double>(g.world[i].z) * 2.0 / (3.0 - static_cast<double>(g.world[i].y));
+        const double u = x / 2.0 - std::floor(x / 2.0);
+        const bool opaque = (u > 0.5) != from_red;
+        if (std::abs(u - 0.5) < 0.01 || u < 0.01 || u > 0.99 || std::abs(std::abs(z) - 1.0) < 0.01)
+            continue;
+        const bool inside = std::abs(x) < 1.0 && std::abs(z) < 1.0;
+        CHECK(g.object[i] == (inside && opaque ? 0 : 1));
+        CHECK(g.material[i] == (inside && opaque ? (in_blend ? 0xffffffffu : 0u) : 1u));
+        upper += inside && opaque ? 1 : 0;
+        through += inside && !opaque ? 1 : 0;
+    }
+    CHECK(upper > 100);
+    CHECK(through > 100);
+}
+
 TEST_CASE("a scene of degenerate triangles has no ray tree", "[tools][scene]")
 {
     scene s;
@@ -201,7 +246,7 @@ TEST_CASE("a scene of degenerate triangles has no ray tree", "[tools][scene]")
     s.object.push_back(0);
     s.material.push_back(0);
     CHECK(ray_tree(s).degenerate_count() == 1);
-    CHECK(ray_tree(s).triangle_of(0) < real);
+    CHECK(ray_tree(s).triangle_of(0, 0) < real);
     for (glm::vec3& p : s.positions)
         p = glm::vec3(1.0f);
     CHECK_THROWS_AS(ray_tree(s), error);

@@ -65,7 +65,7 @@ void tracer::pixel(int x, int y) const
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return;
 
-    const std::uint32_t triangle = tree.triangle_of(query.hit.primID);
+    const std::uint32_t triangle = tree.triangle_of(query.hit.geomID, query.hit.primID);
     const glm::uvec3 corners = s.triangles[triangle];
     const glm::dvec3 a = s.positions[corners.x], b = s.positions[corners.y], c = s.positions[corners.z];
     glm::dvec3 geometric = glm::normalize(glm::cross(b - a, c - a));
