@@ -228,6 +228,82 @@ TEST_CASE("Vulkan programs are as many as the needs, and targets that are off ar
     check_silence();
 }
 
+TEST_CASE("each Vulkan target alone, and all but it, hold the bits that all of them together hold")
+{
+    world w;
+    w.meshes.push_back(square(false));
+    w.add(0, 0, placed({ 0.2F, 0.1F, -1 }, 0.5F, { 1.5F, 1, 1 }));
+    const ao::scene s = w.get();
+    const auto view = camera({});
+    auto vk = rasterizer();
+    ao::gbuffer_facts f = all_targets();
+    f.frame = true;
+    const vk_drawn all = draw(device(), vk, s, f, view);
+    // None, each alone, all but each.
+    for (unsigned i = 0; i < 13; ++i) {
+        const unsigned set = i == 0 ? 0 : i < 7 ? 1U << (i - 1) : 63U & ~(1U << (i - 7));
+        const auto has = [&](unsigned bit) { return (set >> bit & 1U) != 0; };
+        f.position = has(0);
+        f.normal = has(1);
+        f.motion = has(2);
+        f.ids = has(3);
+        f.surface = has(4);
+        f.frame = has(5);
+        const vk_drawn d = draw(device(), vk, s, f, view);
+        INFO("set " << set);
+        CHECK(differing(d.depth, all.depth) == 0);
+        const auto same = [&](bool wanted, const ao::picture& a, const ao::picture& b) {
+            return !wanted || differing(a, b) == 0;
+        };
+        CHECK(same(f.position, d.position, all.position));
+        CHECK(same(f.normal, d.normal, all.normal));
+        CHECK(same(f.motion, d.motion, all.motion));
+        CHECK(same(f.ids, d.ids, all.ids));
+        CHECK(same(f.surface, d.surface, all.surface));
+        CHECK(same(f.frame, d.frame, all.frame));
+    }
+    check_silence();
+}
+
+TEST_CASE("both samplers read the smaller levels of a map")
+{
+    world w;
+    w.meshes.push_back(square(false));
+    // A board of two texels whose mean has whole codes: every level but the largest is that mean.
+    std::vector<std::uint8_t> board;
+    for (int i = 0; i < 64 * 64; ++i) {
+        const bool dark = (i + i / 64) % 2 == 0;
+        board.insert(board.end(),
+                     { std::uint8_t(dark ? 20 : 220), std::uint8_t(dark ? 200 : 100), std::uint8_t(dark ? 240 : 160), 255 });
+    }
+    w.add_texture(64, board, ao::wrap_mode::repeat);
+    w.materials[0].normal_map = 0;
+    w.materials[0].repeat = { 16, 16 }; // 1024 texels over some 60 pixels
+    w.add(0, 0, placed({ 0, 0, -1 }, 0.2F, { 1.5F, 1, 1 }));
+    world mean = w;
+    mean.texels[0] = { 120, 150, 200, 255 };
+    mean.textures[0].width = mean.textures[0].height = 1;
+    const auto view = camera({});
+    auto shared = rasterizer();
+    const vk_drawn expected = draw(device(), shared, mean.get(), all_targets(), view);
+    for (const auto how : { ao::vk::sampling::shared, ao::vk::sampling::hardware }) {
+        auto vk = rasterizer(device(), { how });
+        const vk_drawn d = draw(device(), vk, w.get(), all_targets(), view);
+        INFO("sampling " << static_cast<int>(how));
+        int compared = 0;
+        for (std::size_t i = 0; i < d.ids.pixels(); ++i) {
+            if (d.ids.texel<glm::uvec2>(i).x != 0) {
+                ++compared;
+                // Texels that are equal leave only the rounding of the weights.
+                REQUIRE(static_cast<double>(glm::length(d.normal.texel<glm::vec4>(i) - expected.normal.texel<glm::vec4>(i))) <
+                        1e-5);
+            }
+        }
+        CHECK(compared > 500);
+    }
+    check_silence();
+}
+
 TEST_CASE("Vulkan's normals arrive in every format")
 {
     auto vk = rasterizer();
