@@ -352,6 +352,37 @@ TEST_CASE("Vulkan packs the frames of blends that need them, and of nothing else
     check_silence();
 }
 
+TEST_CASE("of surfaces at equal depth Vulkan keeps the first in the plan's order, in either direction of depth")
+{
+    world w;
+    w.meshes = { square(false), square(true) };
+    w.materials.resize(2);
+    w.materials[1].two_sided = false;
+    const glm::mat4 place = placed({ 0.2F, 0.1F, -1 }, 0.5F, { 1.5F, 1, 1 });
+    // By variant, then material, then object: 1 and 3 share the first variant's draw, 0 and 2 are culled.
+    w.add(0, 1, place);
+    w.add(1, 0, place);
+    w.add(0, 1, place);
+    w.add(1, 0, place);
+    const ao::scene s = w.get();
+    const auto f = all_targets();
+    const auto plan = ao::plan_drawing(s, f);
+    REQUIRE(plan);
+    const auto first = static_cast<unsigned>(plan->draws.front().object + 1);
+    auto vk = rasterizer();
+    for (const bool reversed : { false, true }) {
+        const vk_drawn d = draw(device(), vk, s, f, camera({ .reversed = reversed }));
+        std::size_t seen = 0;
+        for (std::size_t i = 0; i < d.ids.pixels(); ++i) {
+            const unsigned id = d.ids.texel<glm::uvec2>(i).x;
+            seen += id == first ? 1 : 0;
+            REQUIRE((id == 0 || id == first));
+        }
+        CHECK(seen > 500);
+    }
+    check_silence();
+}
+
 TEST_CASE("objects move between frames that are recorded before any has run")
 {
     for (ao::host::vulkan_device* on : { &device(), &plain_device() }) {
