@@ -204,3 +204,52 @@ TEST_CASE("every target is the same bits with any threads and tiles")
         }
     }
 }
+
+TEST_CASE("a large mesh, most of it out of view, is drawn as its triangles are one by one")
+{
+    auto cpu = cpu_test::rasterizer();
+    std::mt19937 random(11);
+    const auto signed_unit = [&] { return std::uniform_real_distribution<float>(-1.0F, 1.0F)(random); };
+    mesh_data large;
+    for (int i = 0; i < 3000; ++i) {
+        // In the order of their place, so that neighbours in the mesh are neighbours in space.
+        const float along = static_cast<float>(i) / 20 - 75;
+        const glm::vec3 centre(along, 5 * signed_unit(), -20 + 10 * signed_unit());
+        for (int corner = 0; corner < 3; ++corner) {
+            large.indices.push_back(static_cast<std::uint32_t>(large.positions.size()));
+            large.positions.push_back(centre + glm::vec3(signed_unit(), signed_unit(), signed_unit()));
+        }
+    }
+    world together;
+    together.meshes = { large };
+    world apart;
+    for (std::size_t i = 0; i < large.positions.size(); i += 3) {
+        mesh_data one;
+        one.positions = { large.positions[i], large.positions[i + 1], large.positions[i + 2] };
+        one.indices = { 0, 1, 2 };
+        apart.meshes.push_back(one);
+    }
+    const ao::matrix4 turned(glm::rotate(glm::mat4(1), 0.1F, glm::vec3(0, 1, 0)));
+    together.add(0, 0, turned.to_glm());
+    for (std::size_t i = 0; i < apart.meshes.size(); ++i) {
+        apart.add(static_cast<int>(i), 0, turned.to_glm());
+    }
+    for (const view_kind& k : view_kinds()) {
+        for (const float turn : { 0.0F, 1.2F, 3.1F }) {
+            ao::gbuffer_camera camera = camera_of(k);
+            camera.view = ao::matrix4(glm::rotate(glm::mat4(1), turn, glm::vec3(0.1F, 1, 0)));
+            auto f = facts();
+            f.motion = f.surface = false;
+            const drawn a = cpu_test::draw(cpu, together.get(), f, camera);
+            const drawn b = cpu_test::draw(cpu, apart.get(), f, camera);
+            CHECK(picture_test::differing(a.depth, b.depth) == 0);
+            CHECK(picture_test::differing(a.position, b.position) == 0);
+            CHECK(picture_test::differing(a.normal, b.normal) == 0);
+            std::size_t seen = 0;
+            for (std::size_t i = 0; i < a.ids.pixels(); ++i) {
+                seen += a.ids.texel<glm::uvec2>(i).x;
+            }
+            CHECK((seen > 500 || turn > 2));
+        }
+    }
+}

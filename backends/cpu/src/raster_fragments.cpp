@@ -38,18 +38,6 @@ raster_surface::raster_surface(const raster_frame& frame, const raster_triangle&
     planes_ = corner_weights(frame.view, clip);
 }
 
-glm::vec3 raster_surface::weights(int x, int y) const
-{
-    // Pixels that snapping added lie outside of the triangle by 1/256 pixel, which slivers magnify.
-    glm::dvec3 w = planes_.at(x, y);
-    w = { std::max(w.x, 0.0), std::max(w.y, 0.0), std::max(w.z, 0.0) };
-    const double total = w.x + w.y + w.z;
-    if (!(total > 0)) {
-        return glm::vec3(1.0F / 3.0F);
-    }
-    return { static_cast<float>(w.x / total), static_cast<float>(w.y / total), static_cast<float>(w.z / total) };
-}
-
 // From `here` to what the triangle's plane has at a pixel, times `direction`.
 glm::vec2 raster_surface::difference(const glm::vec2& here, int x, int y, float direction) const
 {

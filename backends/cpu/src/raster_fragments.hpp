@@ -5,6 +5,7 @@
 
 #include "ao/geometry_pass.hpp"
 
+#include <algorithm>
 #include <array>
 
 namespace ao::cpu {
@@ -49,7 +50,18 @@ public:
         };
     }
     // Perspective-correct weights of the corners: not negative, 1 together.
-    glm::vec3 weights(int x, int y) const;
+    glm::vec3 weights(int x, int y) const
+    {
+        // Pixels that snapping added lie outside of the triangle by 1/256 pixel, which slivers magnify.
+        glm::dvec3 w = planes_.at(x, y);
+        w = { std::max(w.x, 0.0), std::max(w.y, 0.0), std::max(w.z, 0.0) };
+        const double total = w.x + w.y + w.z;
+        if (!(total > 0)) {
+            return glm::vec3(1.0F / 3.0F);
+        }
+        const double inverse = 1 / total;
+        return { static_cast<float>(w.x * inverse), static_cast<float>(w.y * inverse), static_cast<float>(w.z * inverse) };
+    }
     // Texture coordinates at a pixel of these weights, and their differences within its block of 2x2.
     raster_pass::ao_map_place place(int x, int y, const glm::vec3& weights) const;
     glm::vec3 position(const glm::vec3& w) const { return sum(positions_, w); }

@@ -2,6 +2,7 @@
 
 #include "ao/texture.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <new>
 #include <stdexcept>
@@ -36,10 +37,11 @@ public:
 
 private:
     std::uint32_t count() const { return static_cast<std::uint32_t>(into_.clusters.size()); }
+    glm::vec3 position(std::uint32_t vertex) const { return into_.attribute<glm::vec3>(position_attribute, vertex); }
 
     void add_cluster(const placed_mesh& mesh, std::uint32_t first_index, std::uint32_t indices)
     {
-        triangle_cluster made{ first_index, indices, static_cast<std::uint32_t>(into_.cluster_vertices.size()), 0 };
+        triangle_cluster made{ first_index, indices, static_cast<std::uint32_t>(into_.cluster_vertices.size()), 0, {}, {} };
         const std::uint32_t mark = count() + 1;
         for (std::uint32_t i = first_index; i < first_index + indices; ++i) {
             const std::uint32_t vertex = into_.arrays.indices[i] + static_cast<std::uint32_t>(mesh.base_vertex);
@@ -49,6 +51,14 @@ private:
                 into_.cluster_vertices.push_back(vertex);
             }
             into_.local_indices[i] = local_[vertex];
+        }
+        made.low = made.high = position(into_.cluster_vertices[made.first_vertex]);
+        for (std::uint32_t i = 1; i < made.vertex_count; ++i) {
+            const glm::vec3 p = position(into_.cluster_vertices[made.first_vertex + i]);
+            for (int axis = 0; axis < 3; ++axis) {
+                made.low[axis] = std::min(made.low[axis], p[axis]);
+                made.high[axis] = std::max(made.high[axis], p[axis]);
+            }
         }
         into_.clusters.push_back(made);
     }

@@ -3,6 +3,7 @@
 #include "raster_clip.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace ao::cpu {
@@ -56,6 +57,47 @@ struct pixel_range {
     bool empty() const { return first > last; }
 };
 
+// |m| applied to |p|, translation included.
+glm::dvec3 magnitude(const affine_map& m, const glm::dvec3& p)
+{
+    const auto row = [&](const glm::vec4& r) {
+        const glm::dvec4 d(r);
+        return std::abs(d.x) * p.x + std::abs(d.y) * p.y + std::abs(d.z) * p.z + std::abs(d.w);
+    };
+    return { row(m.x), row(m.y), row(m.z) };
+}
+
+// Whether no triangle of the cluster can be seen: its box lies outside of one of the view's planes by more than the rounding of
+// its vertices' transforms.
+bool unseen(const raster_view& v, const geometry_instance& o, const triangle_cluster& c)
+{
+    glm::dvec3 size;
+    for (int axis = 0; axis < 3; ++axis) {
+        size[axis] = static_cast<double>(std::max(std::abs(c.low[axis]), std::abs(c.high[axis])));
+    }
+    const glm::dvec3 in_view = magnitude(v.camera.view, magnitude(o.model, size));
+    const glm::dvec3 clip = magnitude(v.camera.clip, in_view);
+    const double w =
+        std::abs(static_cast<double>(v.camera.clip_w.z)) * in_view.z + std::abs(static_cast<double>(v.camera.clip_w.w));
+    // Three matrices with four terms each: less than 32 roundings of 2^-24 on either side of a comparison.
+    const double slack = 4e-6 * (std::max(std::max(clip.x, clip.y), clip.z) + w);
+    unsigned all = ~0U;
+    for (unsigned i = 0; i < 8 && all != 0; ++i) {
+        const glm::vec3 corner((i & 1U) != 0 ? c.high.x : c.low.x, (i & 2U) != 0 ? c.high.y : c.low.y,
+                               (i & 4U) != 0 ? c.high.z : c.low.z);
+        const glm::dvec4 at(v.clip_position(o, corner));
+        unsigned code = 0;
+        code |= at.x < -at.w - slack ? left_side : 0U;
+        code |= at.x > at.w + slack ? right_side : 0U;
+        code |= at.y < -at.w - slack ? lower_side : 0U;
+        code |= at.y > at.w + slack ? upper_side : 0U;
+        code |= at.z < (v.zero_to_one ? 0.0 : -at.w) - slack ? before_near : 0U;
+        code |= at.z > at.w + slack ? behind_far : 0U;
+        all &= code;
+    }
+    return all != 0;
+}
+
 class batch_setup {
 public:
     batch_setup(const raster_model_state& model, const raster_view& view, const tile_grid& grid, triangle_bins& into)
@@ -70,6 +112,10 @@ public:
         slot_ = slot;
         const raster_object& object = model_.objects[slot];
         variant_ = &model_.variants[object.variant];
+        // Of fewer vertices each is looked at sooner than a box.
+        if (cluster.vertex_count > 24 && unseen(view_, object.instance, cluster)) {
+            return;
+        }
         for (std::uint32_t i = 0; i < cluster.vertex_count; ++i) {
             const std::uint32_t vertex = model_.cluster_vertices[cluster.first_vertex + i];
             corner& c = corners_[i];

@@ -5,6 +5,8 @@
 #include "ao/drawing.hpp"
 #include "ao/mesh_arrays.hpp"
 
+#include <glm/vec3.hpp>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -21,6 +23,8 @@ struct triangle_cluster {
     std::uint32_t index_count = 0;
     std::uint32_t first_vertex = 0; // of raster_model_state::cluster_vertices
     std::uint32_t vertex_count = 0;
+    glm::vec3 low{ 0.0F }; // of the vertices, object space
+    glm::vec3 high{ 0.0F };
 };
 
 struct cluster_range {

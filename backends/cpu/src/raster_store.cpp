@@ -40,53 +40,51 @@ void put_vector(const image_view& to, int x, int y, const glm::vec4& v)
 
 } // namespace
 
-void store_surface(const raster_frame& frame, const gbuffer_images<image_view>& to, const raster_surface& surface, int x, int y)
+void store_surface(const raster_frame& frame, const gbuffer_images<image_view>& to, const raster_surface& surface,
+                   const row_span& span)
 {
     const gbuffer_facts& f = frame.model.facts;
     const draw_variant& v = surface.variant();
     const geometry_instance& object = surface.object().instance;
-    raster_pass pass = surface.pass(frame);
-    const glm::vec3 w = surface.weights(x, y);
+    const bool normals = reads_normals(v, f);
+    const bool tangents = reads_tangents(v);
     const float side = surface.triangle()->front ? 1.0F : -1.0F;
-    raster_pass::ao_map_place place{};
-    if (v.uvs) {
-        place = surface.place(x, y, w);
-    }
-    glm::vec3 normal(0.0F);
-    if (reads_normals(v, f)) {
-        normal = surface.normal(w);
-    }
-    glm::vec4 tangent(0.0F);
-    if (reads_tangents(v)) {
-        tangent = surface.tangent(w);
-    }
-    if (f.position) {
-        put_vector(to.position, x, y, glm::vec4(surface.position(w), 1.0F));
-    }
-    if (f.normal) {
-        put_vector(to.normal, x, y, pass.ao_geometry_normal(object.leaf, place, normal, tangent, side));
-    }
-    if (f.motion) {
-        const glm::vec2 pixel(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
-        put(to.motion, x, y, raster_pass::ao_geometry_motion(frame.camera, surface.previous(w), pixel));
-    }
-    if (f.ids) {
-        put(to.ids, x, y, glm::uvec2(object.object, object.code));
-    }
-    if (f.surface) {
-        put(to.surface, x, y, raster_pass::ao_geometry_surface(place, side));
-    }
-    if (f.frame) {
-        put(to.frame, x, y, v.frame ? raster_pass::ao_geometry_frame(normal, tangent) : glm::vec4(0.0F));
+    const int y = span.y;
+    raster_pass pass = surface.pass(frame);
+    for (int x = span.first; x < span.last; ++x) {
+        const glm::vec3 w = surface.weights(x, y);
+        const auto place = v.uvs ? surface.place(x, y, w) : raster_pass::ao_map_place{};
+        const glm::vec3 normal = normals ? surface.normal(w) : glm::vec3(0.0F);
+        const glm::vec4 tangent = tangents ? surface.tangent(w) : glm::vec4(0.0F);
+        if (f.position) {
+            put_vector(to.position, x, y, glm::vec4(surface.position(w), 1.0F));
+        }
+        if (f.normal) {
+            put_vector(to.normal, x, y, pass.ao_geometry_normal(object.leaf, place, normal, tangent, side));
+        }
+        if (f.motion) {
+            const glm::vec2 pixel(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
+            put(to.motion, x, y, raster_pass::ao_geometry_motion(frame.camera, surface.previous(w), pixel));
+        }
+        if (f.ids) {
+            put(to.ids, x, y, glm::uvec2(object.object, object.code));
+        }
+        if (f.surface) {
+            put(to.surface, x, y, raster_pass::ao_geometry_surface(place, side));
+        }
+        if (f.frame) {
+            put(to.frame, x, y, v.frame ? raster_pass::ao_geometry_frame(normal, tangent) : glm::vec4(0.0F));
+        }
     }
 }
 
-void store_background(const gbuffer_facts& f, const gbuffer_images<image_view>& to, int x, int y)
+void store_background(const gbuffer_facts& f, const gbuffer_images<image_view>& to, const row_span& span)
 {
-    const glm::vec4 nothing(0.0F);
     const auto clear = [&](const image_view& target, bool wanted) {
         if (wanted) {
-            std::memset(detail::texel_at(target, x, y), 0, static_cast<std::size_t>(bytes_per_pixel(target.format)));
+            const auto pixels = static_cast<std::size_t>(span.last - span.first);
+            std::memset(detail::texel_at(target, span.first, span.y), 0,
+                        pixels * static_cast<std::size_t>(bytes_per_pixel(target.format)));
         }
     };
     clear(to.position, f.position);
@@ -97,14 +95,16 @@ void store_background(const gbuffer_facts& f, const gbuffer_images<image_view>& 
     clear(to.frame, f.frame);
 }
 
-void store_depth(const raster_view& view, const image_view& to, int x, int y, float key)
+void store_depth(const raster_view& view, const image_view& to, const row_span& span, const float* keys)
 {
-    const float depth = key * view.key_sign;
-    if (to.format == pixel_format::d24) {
-        put(to, x, y, static_cast<std::uint32_t>(depth));
-    }
-    else {
-        put(to, x, y, depth + 0.0F); // no negative zero
+    for (int x = span.first; x < span.last; ++x) {
+        const float depth = keys[x - span.first] * view.key_sign;
+        if (to.format == pixel_format::d24) {
+            put(to, x, span.y, static_cast<std::uint32_t>(depth));
+        }
+        else {
+            put(to, x, span.y, depth + 0.0F); // no negative zero
+        }
     }
 }
 

@@ -16,12 +16,21 @@ inline float depth_key(pixel_format format, float sign, double key)
     return static_cast<float>(key);
 }
 
-// All targets but depth, at a pixel that shows the surface.
-void store_surface(const raster_frame& frame, const gbuffer_images<image_view>& to, const raster_surface& surface, int x, int y);
+// Pixels first ... last - 1 of a row.
+struct row_span {
+    int y = 0;
+    int first = 0;
+    int last = 0;
+};
 
-// All targets but depth, at a pixel that shows nothing.
-void store_background(const gbuffer_facts& f, const gbuffer_images<image_view>& to, int x, int y);
+// All targets but depth, where the surface is seen.
+void store_surface(const raster_frame& frame, const gbuffer_images<image_view>& to, const raster_surface& surface,
+                   const row_span& span);
 
-void store_depth(const raster_view& view, const image_view& to, int x, int y, float key);
+// All targets but depth, where nothing is seen.
+void store_background(const gbuffer_facts& f, const gbuffer_images<image_view>& to, const row_span& span);
+
+// `keys`: of the span's pixels.
+void store_depth(const raster_view& view, const image_view& to, const row_span& span, const float* keys);
 
 } // namespace ao::cpu

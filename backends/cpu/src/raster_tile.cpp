@@ -47,18 +47,23 @@ public:
 
     void store()
     {
-        std::size_t i = 0;
         for (int y = box_.top; y < box_.bottom; ++y) {
-            i = row_start(y);
-            for (int x = box_.left; x < box_.right; ++x, ++i) {
-                store_depth(frame_.view, targets_.images.depth, x, y, memory_.keys[i]);
-                const raster_triangle* t = memory_.triangles[i];
+            const std::size_t start = row_start(y);
+            const raster_triangle* const* shown = memory_.triangles.data() + start;
+            store_depth(frame_.view, targets_.images.depth, { y, box_.left, box_.right }, memory_.keys.data() + start);
+            for (int x = box_.left; x < box_.right;) {
+                const raster_triangle* t = shown[x - box_.left];
+                row_span span{ y, x, x + 1 };
+                while (span.last < box_.right && shown[span.last - box_.left] == t) {
+                    ++span.last;
+                }
                 if (t == nullptr) {
-                    store_background(frame_.model.facts, targets_.images, x, y);
+                    store_background(frame_.model.facts, targets_.images, span);
                 }
                 else {
-                    store_surface(frame_, targets_.images, surface_of(*t), x, y);
+                    store_surface(frame_, targets_.images, surface_of(*t), span);
                 }
+                x = span.last;
             }
         }
     }
