@@ -2,51 +2,21 @@
 // of one run, as Markdown. Every picture is compared with the scalar CPU's before its clock starts.
 #include "host/runner.hpp"
 #include "micro/courtyard_input.hpp"
+#include "micro/measure.hpp"
 #ifdef AO_HAS_VK
 #include "micro/fetch_probe.hpp"
 #endif
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <functional>
 #include <map>
-#include <random>
 #include <string>
 #include <vector>
 
 namespace {
 
 using namespace ao;
-
-constexpr int rounds = 15;
-
-[[noreturn]] void stop(const std::string& why)
-{
-    std::fprintf(stderr, "ao: %s\n", why.c_str());
-    std::exit(1);
-}
-
-template <class T>
-T take(ao::result<T> r)
-{
-    if (!r) {
-        stop(std::string(r.error().reason()));
-    }
-    return std::move(*r);
-}
-
-#ifdef AO_HAS_VK
-template <class T>
-T take(host::result<T> r)
-{
-    if (!r) {
-        stop(r.reason());
-    }
-    return std::move(*r);
-}
-#endif
+using namespace ao::bench;
 
 const bench::input& input_of(int width, int height)
 {
@@ -56,37 +26,6 @@ const bench::input& input_of(int width, int height)
         at->second = bench::courtyard_input(width, height);
     }
     return at->second;
-}
-
-// Something with a clock of its own.
-struct contestant {
-    std::string name;
-    std::function<double()> run; // milliseconds
-    std::vector<double> times;
-
-    double median() const
-    {
-        std::vector<double> sorted = times;
-        std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-        return sorted[sorted.size() / 2];
-    }
-};
-
-// Round by round, in random order, after one round for warming up.
-void measure(std::vector<contestant>& field)
-{
-    std::mt19937 engine(1);
-    std::vector<std::size_t> order(field.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        order[i] = i;
-        field[i].run();
-    }
-    for (int round = 0; round < rounds; ++round) {
-        std::shuffle(order.begin(), order.end(), engine);
-        for (const std::size_t i : order) {
-            field[i].times.push_back(field[i].run());
-        }
-    }
 }
 
 struct workload {
@@ -117,36 +56,6 @@ contestant occlusion(std::shared_ptr<host::runner> subject, const workload& w)
 std::shared_ptr<host::runner> one(std::string_view backend)
 {
     return std::move(take(host::make_runners(backend)).front());
-}
-
-// ms = start + slope * x by least squares, and the largest distance from that line relative to the greatest time.
-struct line {
-    double start;
-    double slope;
-    double bend;
-};
-
-line fit(const std::vector<double>& x, const std::vector<double>& y)
-{
-    const auto n = static_cast<double>(x.size());
-    double mean_x = 0;
-    double mean_y = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        mean_x += x[i] / n;
-        mean_y += y[i] / n;
-    }
-    double above = 0;
-    double below = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        above += (x[i] - mean_x) * (y[i] - mean_y);
-        below += (x[i] - mean_x) * (x[i] - mean_x);
-    }
-    const double slope = above / below;
-    double bend = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        bend = std::max(bend, std::abs(y[i] - mean_y - slope * (x[i] - mean_x)));
-    }
-    return { mean_y - slope * mean_x, slope, bend / *std::max_element(y.begin(), y.end()) };
 }
 
 void compare_backends()
