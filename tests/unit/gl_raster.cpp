@@ -1,7 +1,7 @@
 // OpenGL's geometry pass.
 #include "ao/gl/rasterizer.hpp"
 #include "unit/gl_pictures.hpp"
-#include "unit/raster_cases.hpp"
+#include "unit/raster_bad_input.hpp"
 
 #include <string>
 #include <vector>
@@ -184,4 +184,12 @@ TEST_CASE("a million objects are drawn, each with its own transform and id; an e
 {
     auto gl = rasterizer();
     check_many_objects([&](const auto& s, const auto& f, const auto& c) { return draw(gl, s, f, c); }, 1000000);
+}
+
+TEST_CASE("triangles without area or with vertices that are not finite leave no mark, attributes that are not finite no NaN")
+{
+    auto gl = rasterizer();
+    const auto on_device = [&](const auto& s, const auto& f, const auto& c) { return draw(gl, s, f, c); };
+    check_bad_triangles(on_device);
+    check_bad_attributes(on_device);
 }
