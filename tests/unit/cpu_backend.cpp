@@ -1,47 +1,15 @@
 // What the CPU backend accepts, refuses and promises beside its pictures.
 #include "ao/conformance/cases.hpp"
 #include "ao/cpu/backend.hpp"
+#include "unit/cpu_allocations.hpp"
 
 #include <catch2/catch.hpp>
 #include <oneapi/tbb/global_control.h>
 
-#include <cstdlib>
-#include <new>
 #include <string>
 #include <utility>
 
 using namespace ao;
-
-// AddressSanitizer has an operator new of its own, and compares it with the one that memory goes back to.
-#if !defined(__SANITIZE_ADDRESS__)
-#define AO_COUNTS_ALLOCATIONS
-
-namespace {
-
-thread_local int allocations = 0;
-
-} // namespace
-
-void* operator new(std::size_t size)
-{
-    ++allocations;
-    if (void* p = std::malloc(size == 0 ? 1 : size)) {
-        return p;
-    }
-    throw std::bad_alloc();
-}
-
-void operator delete(void* p) noexcept
-{
-    std::free(p);
-}
-
-void operator delete(void* p, std::size_t) noexcept
-{
-    std::free(p);
-}
-
-#endif
 
 namespace {
 
@@ -149,11 +117,11 @@ TEST_CASE("Recording allocates nothing", "[cpu]")
     auto bound = effect->bind({ cpu::view_of(c.depth), cpu::view_of(c.normal), cpu::view_of(visibility) });
     REQUIRE(bound);
     effect->record({}, *bound); // oneTBB's threads join with their first work
-    const int before = allocations;
+    const int before = cpu_test::allocations();
     for (int frame = 0; frame < 8; ++frame) {
         effect->record({}, *bound);
     }
-    CHECK(allocations == before);
+    CHECK(cpu_test::allocations() == before);
 }
 #endif
 

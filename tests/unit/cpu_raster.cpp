@@ -1,5 +1,7 @@
 // The CPU's geometry pass.
+#include "unit/cpu_allocations.hpp"
 #include "unit/cpu_raster_support.hpp"
+#include "unit/raster_bad_input.hpp"
 
 using namespace cpu_test;
 using namespace raster_test;
@@ -190,4 +192,36 @@ TEST_CASE("objects of the CPU's models move, and what no longer fits the plan is
     bad = images;
     bad.surface.height -= 1;
     CHECK_THAT(refused(bad, ao::errc::invalid_size), StartsWith("surface"));
+}
+
+#if defined(AO_COUNTS_ALLOCATIONS)
+TEST_CASE("the CPU allocates nothing to draw a view again")
+{
+    world w = plain_world();
+    const ao::gbuffer_facts f = all_targets();
+    const auto plan = ao::plan_drawing(w.get(), f);
+    REQUIRE(plan);
+    auto cpu = cpu_test::rasterizer({ .threads = 1 });
+    auto model = cpu.load(w.get(), *plan);
+    REQUIRE(model);
+    drawn d;
+    auto targets = cpu.bind(*model, make_pictures(f, d));
+    REQUIRE(targets);
+    const auto view = camera({});
+    cpu.record({}, *model, *targets, view);
+    const ao::scene s = w.get();
+    const int before = allocations();
+    const auto moved = cpu.move(*model, s);
+    cpu.record({}, *model, *targets, view);
+    const int after = allocations();
+    CHECK_FALSE(moved);
+    CHECK(after == before);
+}
+#endif
+
+TEST_CASE("the CPU leaves no mark of triangles without area or with vertices that are not finite, and no NaN of attributes")
+{
+    auto cpu = cpu_test::rasterizer();
+    check_bad_triangles(with(cpu));
+    check_bad_attributes(with(cpu));
 }

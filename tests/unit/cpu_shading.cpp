@@ -1,7 +1,8 @@
 // The CPU's shading passes.
 #include "ao/cpu/shading.hpp"
+#include "unit/cpu_allocations.hpp"
 #include "unit/cpu_threads.hpp"
-#include "unit/shade_cases.hpp"
+#include "unit/deep_blends.hpp"
 
 #include <string>
 
@@ -212,4 +213,42 @@ TEST_CASE("the CPU's shading refuses pictures, plans and options that do not fit
     other.targets = 1 << 30;
     other.facts.width = other.facts.height = 65536;
     CHECK(on->prepare_shading(other, *heap).error().code() == ao::errc::out_of_memory);
+}
+
+#if defined(AO_COUNTS_ALLOCATIONS)
+TEST_CASE("the CPU allocates nothing to shade")
+{
+    auto on = ao::cpu::shading::create({ .threads = 1 });
+    REQUIRE(on);
+    random_scene scene(3, true, true, 14);
+    const ao::shade_facts f = facts();
+    ao::blend_settings settings;
+    settings.registers = 1;
+    const auto plan = ao::make_shade_plan(scene.get(), f, camera(false), settings);
+    REQUIRE(plan);
+    const auto heap = ao::make_texel_heap(scene.get().textures);
+    auto program = on->prepare_shading(*plan, *heap);
+    REQUIRE(program);
+    const auto inputs = random_inputs(scene, f, camera(false).projection);
+    ao::picture color;
+    auto bound = on->bind_shading(*program, *plan, images_of(*plan, inputs, color));
+    REQUIRE(bound);
+    const int before = cpu_test::allocations();
+    for (std::size_t i = 0; i < plan->passes.size(); ++i) {
+        on->record_shading({}, *program, *bound, *plan, i);
+    }
+    const int after = cpu_test::allocations();
+    CHECK(after == before);
+}
+#endif
+
+TEST_CASE("the CPU blends deep and wide trees as double does, shared ones once, with the ends' bits and in linear light")
+{
+    auto cpu = ao::cpu::shading::create({ .threads = 2 });
+    REQUIRE(cpu);
+    const run_function on = [&](const auto& plan, const auto& heap, const auto& in) { return run(*cpu, plan, heap, in); };
+    check_deep_blends(on);
+    check_shared_blends(on);
+    check_blend_ends(on);
+    check_linear_light(on);
 }

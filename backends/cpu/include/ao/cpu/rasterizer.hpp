@@ -25,9 +25,9 @@
 // with a corner beyond 1e30 in clip space are not drawn.
 //
 // Memory of a model: positions 12 bytes, and where some variant reads them normals 12, tangents 16, uvs 8, previous positions 12
-// per vertex; 6 bytes per index and 4 per vertex for clusters; 80 bytes per object, 48 more for motion; alpha and normal maps.
-// Of targets: 12 bytes per pixel of a tile and thread; about 110 bytes for each triangle in view, in arrays that grow when a view
-// shows more triangles than any before it, and never otherwise: nothing else is allocated by record, other than tasks by oneTBB.
+// per vertex; 6 bytes per index and 4 per vertex for clusters; 84 bytes per object, 48 more for motion; alpha and normal maps.
+// Of targets: 12 bytes per pixel of a tile and thread; 72 bytes for each triangle in view and 12 for each tile that it touches,
+// in arrays that grow when a view shows more than any before it: nothing else is allocated by record, other than tasks by oneTBB.
 //
 // record draws and returns when it is done; the calling thread works along. Calls may come from any thread, several at once for
 // different targets. Assumes the default floating-point environment. Pictures are the same bits for every number of threads and
