@@ -1,6 +1,6 @@
 // Vulkan's geometry pass.
 #include "ao/vk/rasterizer.hpp"
-#include "unit/raster_cases.hpp"
+#include "unit/raster_bad_input.hpp"
 #include "unit/vk_pictures.hpp"
 
 #include <array>
@@ -517,5 +517,13 @@ TEST_CASE("a million objects are drawn by Vulkan, each with its own transform an
 {
     auto vk = rasterizer();
     check_many_objects(draw_with(device(), vk), 1000000);
+    check_silence();
+}
+
+TEST_CASE("Vulkan leaves no mark of triangles without area or with vertices that are not finite, and no NaN of attributes")
+{
+    auto vk = rasterizer();
+    check_bad_triangles(draw_with(device(), vk));
+    check_bad_attributes(draw_with(device(), vk));
     check_silence();
 }
