@@ -60,6 +60,7 @@ struct occlusion_pass {
     }
 
 #include "ao/shared/normal_pass.h"
+#include "ao/shared/occlusion_tap.h"
 #include "ao/shared/occlusion_pass.h"
 };
 

@@ -35,6 +35,7 @@ vec4 ao_tap(int i)
 }
 
 #include "ao/shared/normal_pass.h"
+#include "ao/shared/occlusion_tap.h"
 #include "ao/shared/occlusion_pass.h"
 
 layout(std140, binding = 0) uniform ao_constants_block { ao_occlusion_constants ao_constants; };
