@@ -18,6 +18,7 @@ struct bits_of {
     }
     static Real power_of_two(Integer n) { return Real(copy<typename Real::native>(typename Integer::native((n.v + 127) << 23))); }
     static Real real(Uint bits) { return Real(copy<typename Real::native>(bits.v)); }
+    static Uint word(Real x) { return Uint(copy<typename Uint::native>(x.v)); }
 
 private:
     template <class To, class From>
@@ -41,6 +42,7 @@ struct bits_of<float, std::int32_t, std::uint32_t> {
         return std::bit_cast<float>(static_cast<std::uint32_t>(n + 127) << 23U);
     }
     static constexpr float real(std::uint32_t bits) { return std::bit_cast<float>(bits); }
+    static constexpr std::uint32_t word(float x) { return std::bit_cast<std::uint32_t>(x); }
 };
 
 template <>
@@ -54,6 +56,7 @@ struct bits_of<double, std::int32_t, std::uint32_t> {
         return std::bit_cast<double>(static_cast<std::uint64_t>(n + 1023) << 52U);
     }
     static constexpr double real(std::uint32_t bits) { return static_cast<double>(std::bit_cast<float>(bits)); }
+    static constexpr std::uint32_t word(double x) { return std::bit_cast<std::uint32_t>(static_cast<float>(x)); }
 };
 
 // Whether a verdict holds anywhere.

@@ -12,4 +12,6 @@
 #include "ao/shared/color.h"
 #include "ao/shared/blend.h"
 #include "ao/shared/shading.h"
+#include "ao/shared/history.h"
+#include "ao/shared/temporal.h"
 // clang-format on

@@ -40,8 +40,7 @@ AO_PASS ao_tap_space ao_make_tap_space(ao_projection p, vec2 size, vec3 position
     AO_PRECISE real gradient_y = mix(normal.y * p.slope_y / divisor, real(0), steep);
     AO_PRECISE real last_column = size.x - real(0.5);
     AO_PRECISE real last_row = size.y - real(0.5);
-    ao_tap_space space = { across, down,       inward,     start_x,     start_y,
-                           d,      gradient_x, gradient_y, last_column, last_row };
+    ao_tap_space space = { across, down, inward, start_x, start_y, d, gradient_x, gradient_y, last_column, last_row };
     return space;
 }
 

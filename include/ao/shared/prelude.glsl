@@ -10,6 +10,7 @@
 #define ao_exponent(x) (int(floatBitsToUint(x) >> 23 & 255u) - 127)
 #define ao_power_of_two(n) uintBitsToFloat(uint((n) + 127) << 23)
 #define ao_real_of_bits(n) uintBitsToFloat(n)
+#define ao_bits_of_real(x) floatBitsToUint(x)
 #define ao_any(m) (m)
 // What stands before the loop over taps: an attribute, where an API's shaders want one.
 #ifndef AO_UNROLL

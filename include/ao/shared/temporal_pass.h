@@ -1,0 +1,284 @@
+// Temporal ambient occlusion (paper 2): new samples of this frame are added to what the last frames know of the same surface
+// point. Callbacks: real ao_load_depth(ivec2): eye depth of this frame, 0 or less, NaN or infinite for background;
+//            vec4 ao_load_motion(ivec2): xy in the host's convention, z eye depth in the last frame, 0 where it is not known;
+//            uint ao_load_history(uint): of the last frame (history_load.h);
+//            vec2 ao_load_rotation(ivec2): from a tile of ao_tile_size squared;
+//            vec4 ao_load_tap(uint): an offset of the sequence, in tangent space (ritschel) or on the unit disc (fox_compton);
+//            and those of normal_pass.h and occlusion_tap.h.
+// Options:   int ao_most_samples: the larger of k1 and k2; int ao_contribution (ao_ritschel, ao_fox_compton);
+//            bool ao_reproject: else camera and scene stand still; bool ao_use_motion; bool ao_cubic: histories
+//            between pixels by Catmull-Rom, else bilinear; int ao_invalidation (ao_keep_weight, ao_smooth_weight,
+//            ao_clamp_weight); and those of normal_pass.h and occlusion_tap.h.
+// "Previous" means view space, pixels and depth of the last frame.
+
+AO_CONST int ao_ritschel = 0;
+AO_CONST int ao_fox_compton = 1;
+AO_CONST int ao_keep_weight = 0;
+AO_CONST int ao_smooth_weight = 1;
+AO_CONST int ao_clamp_weight = 2;
+
+struct ao_temporal_constants {
+    ao_projection projection;
+    ao_projection previous_projection;
+    ao_affine_reals to_previous; // view space of this frame to that of the last, of what stands still in the world
+    ao_rotation normal_to_view;
+    real radius; // scene units
+    real bias;   // as in ao_occlusion_constants
+    real bias_linear;
+    real bias_quadratic;
+    real thickness;
+    real background; // eye depths from here on are background
+    real width;      // pixels
+    real height;
+    real motion_scale_x; // previous pixel = pixel + motion * scale + offset
+    real motion_scale_y;
+    real motion_offset_x;
+    real motion_offset_y;
+    real tolerance;          // of the depth test, as a share of the depth
+    real steepness;          // S / R
+    real history;            // 1, or 0 where there is no last frame to believe
+    real period;             // samples before the sequence starts again
+    real most_weight;        // w_max
+    real first_samples;      // k1, while weight < adaptive_weight
+    real later_samples;      // k2
+    real adaptive_weight;    // c_adaptive w_max
+    real rotation_weight;    // c_rot w_max: the pattern is turned from pixel to pixel while weight is less
+    real clamped_weight;     // of a history whose neighbourhood changed (ao_clamp_weight)
+    real strength;           // fox_compton: scene units
+    real least_distance;     // fox_compton: scene units
+    real largest;            // fox_compton: of one contribution, (0, 1]
+    real tolerance_constant; // of the depth test, scene units
+    real moving_weight;      // most_weight of a history that comes from another place on the picture
+    real reserved_0;
+};
+
+// Whether a history is one at all: a frame never written, or poisoned, is not. NaN fails every comparison.
+AO_FN mask ao_usable_history(ao_temporal_constants c, ao_history h)
+{
+    mask usable = c.history > real(0) && h.weight >= real(1) && h.value >= real(0) && h.value <= real(1) && h.index >= real(0) &&
+                  h.index < c.period && h.depth > real(0);
+    return usable;
+}
+
+// Where a surface point was in the last frame.
+struct ao_previous {
+    vec3 position;
+    vec2 pixel;
+    mask inside; // the picture, and in front of the eye
+};
+
+AO_PASS ao_previous ao_previous_of(ao_temporal_constants c, ivec2 texel, vec3 position)
+{
+    vec3 was = ao_transform_point(ao_affine_of(c.to_previous), position);
+    mask ahead = was.z < real(-1e-30) || ao_parallel;
+    vec2 pixel = ao_to_pixel(c.previous_projection, vec3(was.x, was.y, mix(real(-1), was.z, ahead)), ao_parallel);
+    if (ao_use_motion) {
+        vec4 motion = ao_load_motion(texel);
+        AO_PRECISE real x = real(texel.x) + real(0.5) + (motion.x * c.motion_scale_x + c.motion_offset_x);
+        AO_PRECISE real y = real(texel.y) + real(0.5) + (motion.y * c.motion_scale_y + c.motion_offset_y);
+        mask known = motion.z > real(0) && motion.z < c.background;
+        real d = mix(-was.z, motion.z, known);
+        pixel = vec2(x, y);
+        ahead = d > real(0);
+        was = ao_view_point(c.previous_projection, pixel, d, ao_parallel);
+    }
+    mask inside = ahead && pixel.x >= real(0) && pixel.x < c.width && pixel.y >= real(0) && pixel.y < c.height;
+    ao_previous previous = { was, vec2(mix(real(0.5), pixel.x, inside), mix(real(0.5), pixel.y, inside)), inside };
+    return previous;
+}
+
+// What the last frame knows of a surface point: weight 0 where that is nothing. `slope`: change of depth per pixel.
+AO_PASS ao_history ao_recalled_history(ao_temporal_constants c, vec2 centre, ao_previous previous, real slope)
+{
+    ivec2 nearest = ivec2(integer(previous.pixel.x), integer(previous.pixel.y));
+    ao_history h = ao_history_at(nearest, c.width);
+    AO_PRECISE real expected = -previous.position.z;
+    // Index, weight and depth come from the nearest pixel. It is half a pixel away at most along each axis, the cubic's texels
+    // two.
+    real near_tolerance = ao_depth_tolerance(expected, c.tolerance, c.tolerance_constant, c.bias_linear, c.bias_quadratic, slope);
+    AO_PRECISE real wide_slope = slope * real(4);
+    real wide_tolerance =
+        ao_depth_tolerance(expected, c.tolerance, c.tolerance_constant, c.bias_linear, c.bias_quadratic, wide_slope);
+    mask kept = previous.inside && ao_usable_history(c, h) && ao_same_surface(expected, h.depth, near_tolerance);
+
+    AO_PRECISE real left = floor(previous.pixel.x - real(0.5));
+    AO_PRECISE real top = floor(previous.pixel.y - real(0.5));
+    AO_PRECISE real across = previous.pixel.x - real(0.5) - left;
+    AO_PRECISE real down = previous.pixel.y - real(0.5) - top;
+    real linear_sum = real(0);
+    real linear_weight = real(0);
+    real cubic_sum = real(0);
+    mask all_usable = ao_cubic;
+    int first = ao_cubic ? -1 : 0;
+    int last = ao_cubic ? 2 : 1;
+    for (int j = first; j <= last; ++j) {
+        for (int i = first; i <= last; ++i) {
+            real column = min(max(left + real(i), real(0)), c.width - real(1));
+            real row = min(max(top + real(j), real(0)), c.height - real(1));
+            ao_history at = ao_history_at(ivec2(integer(column), integer(row)), c.width);
+            mask usable = ao_usable_history(c, at) && ao_same_surface(expected, at.depth, wide_tolerance);
+            real value = mix(real(0), at.value, usable);
+            AO_PRECISE real bilinear = ao_linear_weight(i, across) * ao_linear_weight(j, down);
+            AO_PRECISE real next_sum = linear_sum + mix(real(0), bilinear * value, usable);
+            AO_PRECISE real next_weight = linear_weight + mix(real(0), bilinear, usable);
+            AO_PRECISE real next_cubic = cubic_sum + ao_cubic_weight(i, across) * ao_cubic_weight(j, down) * value;
+            linear_sum = next_sum;
+            linear_weight = next_weight;
+            cubic_sum = next_cubic;
+            all_usable = all_usable && usable;
+        }
+    }
+    mask any = linear_weight > real(0);
+    AO_PRECISE real bilinear_mean = linear_sum / mix(real(1), linear_weight, any);
+    real value = mix(mix(h.value, bilinear_mean, any), cubic_sum, all_usable);
+    AO_PRECISE real moved = abs(previous.pixel.x - centre.x) + abs(previous.pixel.y - centre.y);
+    real most = mix(c.most_weight, min(c.most_weight, c.moving_weight), moved > real(0.015625));
+    ao_history recalled = { mix(real(0), min(max(value, real(0)), real(1)), kept), mix(real(0), min(h.weight, most), kept),
+                            mix(real(0), h.index, ao_usable_history(c, h)), h.depth };
+    return recalled;
+}
+
+// The same where camera and scene stand still: the pixel's own history as it is.
+AO_PASS ao_history ao_own_history(ao_temporal_constants c, ivec2 pixel)
+{
+    ao_history h = ao_history_at(pixel, c.width);
+    mask usable = ao_usable_history(c, h);
+    ao_history own = { mix(real(0), h.value, usable), mix(real(0), min(h.weight, c.most_weight), usable),
+                       mix(real(0), h.index, usable), h.depth };
+    return own;
+}
+
+// delta of (9) for the surface point seen by a tap, 0 where it cannot matter: behind the tangent plane in both frames, or out of
+// the last picture. `was`, `normal_was`: of the pixel itself, in the last frame.
+AO_PASS real ao_neighbour_change(ao_temporal_constants c, ao_tap_seen seen, vec3 position, vec3 normal, vec3 was, vec3 normal_was,
+                                 real bias)
+{
+    mask surface = seen.surface > real(0) && seen.surface < c.background;
+    AO_PRECISE vec2 centre = vec2(real(seen.texel.x) + real(0.5), real(seen.texel.y) + real(0.5));
+    vec3 point = ao_view_point(c.projection, centre, mix(real(1), seen.surface, surface), ao_parallel);
+    ao_previous before = ao_previous_of(c, seen.texel, point);
+    ao_history h = ao_history_at(ivec2(integer(before.pixel.x), integer(before.pixel.y)), c.width);
+    mask usable = ao_usable_history(c, h);
+    AO_PRECISE real expected = -before.position.z;
+    real tolerance = ao_depth_tolerance(expected, c.tolerance, c.tolerance_constant, c.bias_linear, c.bias_quadratic, real(0));
+    mask same = usable && ao_same_surface(expected, h.depth, tolerance);
+    vec3 stood = ao_view_point(c.previous_projection, before.pixel, mix(real(1), h.depth, usable), ao_parallel);
+    vec3 then = ao_select(stood, before.position, same);
+
+    AO_PRECISE vec3 now_offset = vec3(point.x - position.x, point.y - position.y, point.z - position.z);
+    AO_PRECISE vec3 then_offset = vec3(then.x - was.x, then.y - was.y, then.z - was.z);
+    AO_PRECISE real now_height = ao_dot(now_offset, normal);
+    AO_PRECISE real then_height = ao_dot(then_offset, normal_was);
+    AO_PRECISE real now_distance = sqrt(ao_dot(now_offset, now_offset));
+    AO_PRECISE real then_distance = sqrt(ao_dot(then_offset, then_offset));
+    AO_PRECISE real difference = abs(now_distance - then_distance);
+    // Beyond two radii nothing occludes: a change there is no change.
+    AO_PRECISE real reach = c.radius * real(2);
+    mask near_now = now_height > bias && now_distance < reach;
+    mask near_then = then_height > bias && then_distance < reach;
+    // Where the last frame saw no surface, one has come.
+    real change = mix(mix(c.radius, difference, usable), real(0), same && difference <= bias);
+    mask matters = surface && before.inside && (near_now || (usable && near_then));
+    return mix(real(0), change, matters);
+}
+
+// One new sample: [0, 1].
+AO_PASS real ao_contribution_of(ao_temporal_constants c, ao_tap_seen seen, vec3 position, vec3 normal, real bias)
+{
+    real blocked = mix(real(0), real(1), seen.hit);
+    if (ao_contribution == ao_fox_compton) {
+        // Fox and Compton 2008: the patch itself counts, by its cosine and distance.
+        mask surface = seen.surface > real(0) && seen.surface < c.background;
+        AO_PRECISE vec2 centre = vec2(real(seen.texel.x) + real(0.5), real(seen.texel.y) + real(0.5));
+        vec3 point = ao_view_point(c.projection, centre, mix(real(1), seen.surface, surface), ao_parallel);
+        AO_PRECISE vec3 offset = vec3(point.x - position.x, point.y - position.y, point.z - position.z);
+        AO_PRECISE real height = ao_dot(offset, normal) - bias;
+        AO_PRECISE real distance = sqrt(ao_dot(offset, offset));
+        mask counts = surface && height > real(0) && distance <= c.radius;
+        AO_PRECISE real cosine = height / mix(real(1), distance, counts);
+        AO_PRECISE real strength = c.strength * cosine / max(c.least_distance, distance);
+        blocked = mix(real(0), min(strength, c.largest), counts);
+    }
+    return blocked;
+}
+
+AO_PASS ao_frame ao_sampling_frame(vec3 normal, vec2 helper)
+{
+    if (ao_contribution == ao_fox_compton) {
+        // The disc faces the eye.
+        vec3 along = ao_normalize_or(vec3(helper.x, helper.y, real(0)), vec3(real(1), real(0), real(0)));
+        AO_PRECISE real back = -along.y;
+        ao_frame screen = { along, vec3(back, along.x, real(0)), normal };
+        return screen;
+    }
+    return ao_gram_schmidt(normal, vec3(helper.x, helper.y, real(0)));
+}
+
+// Change of depth per pixel along the surface, at most a tenth of the depth.
+AO_FN real ao_depth_slope(ao_tap_space space, bool parallel)
+{
+    AO_PRECISE real gradient = abs(space.gradient_x) + abs(space.gradient_y);
+    AO_PRECISE real slope = parallel ? gradient : gradient * space.depth * space.depth;
+    AO_PRECISE real most = space.depth * real(0.1);
+    return min(slope, most);
+}
+
+// What the next frames are to know of the pixel. Background: all 0.
+AO_PASS ao_history ao_accumulate_pass(ao_temporal_constants c, ivec2 pixel)
+{
+    real stored = ao_load_depth(pixel);
+    mask foreground = stored > real(0) && stored < c.background;
+    real d = mix(real(1), stored, foreground);
+    vec2 size = vec2(c.width, c.height);
+    AO_PRECISE vec2 centre = vec2(real(pixel.x) + real(0.5), real(pixel.y) + real(0.5));
+    vec3 position = ao_view_point(c.projection, centre, d, ao_parallel);
+    vec3 normal = ao_shading_normal(c.projection, c.normal_to_view, size, pixel, position, ao_parallel);
+    AO_PRECISE real bias = c.bias + d * (c.bias_linear + d * c.bias_quadratic);
+
+    // The slope does not depend on the turn of the frame.
+    ao_frame upright = ao_sampling_frame(normal, vec2(real(1), real(0)));
+    ao_tap_space space = ao_make_tap_space(c.projection, size, position, upright, d, c.radius);
+    ao_previous previous = { position, centre, foreground };
+    ao_history h = ao_own_history(c, pixel);
+    if (ao_reproject) {
+        previous = ao_previous_of(c, pixel, position);
+        h = ao_recalled_history(c, centre, previous, ao_depth_slope(space, ao_parallel));
+    }
+    vec3 normal_was = ao_transform_direction(ao_affine_of(c.to_previous), normal);
+
+    vec2 tile = ao_load_rotation(ao_tile_texel(pixel));
+    mask turned = h.weight < c.rotation_weight;
+    vec2 helper = vec2(mix(real(1), tile.x, turned), mix(real(0), tile.y, turned));
+    ao_tap_space taps = ao_make_tap_space(c.projection, size, position, ao_sampling_frame(normal, helper), d, c.radius);
+
+    real wanted = mix(c.later_samples, c.first_samples, h.weight < c.adaptive_weight);
+    wanted = mix(real(0), wanted, foreground);
+    real sum = real(0);
+    real confidence = real(1);
+    for (int i = 0; i < ao_most_samples; ++i) {
+        mask taken = real(i) < wanted;
+        if (!ao_any(taken)) {
+            break;
+        }
+        real index = ao_next_index(h.index, real(i), c.period);
+        ao_tap_seen seen = ao_look(taps, c.projection, ao_load_tap(uint(index)), bias, c.thickness);
+        AO_PRECISE real next = sum + mix(real(0), ao_contribution_of(c, seen, position, normal, bias), taken);
+        sum = next;
+        if (ao_reproject && ao_invalidation != ao_keep_weight) {
+            real change = ao_neighbour_change(c, seen, position, normal, previous.position, normal_was, bias);
+            confidence = mix(confidence, min(confidence, ao_confidence(change, c.steepness)), taken);
+        }
+    }
+    real weight = h.weight;
+    if (ao_reproject && ao_invalidation == ao_smooth_weight) {
+        weight = ao_kept_weight(weight, confidence);
+    }
+    if (ao_reproject && ao_invalidation == ao_clamp_weight) {
+        weight = mix(weight, min(weight, c.clamped_weight), confidence < real(0.5));
+    }
+    real value = ao_accumulated(h.value, weight, sum, mix(real(1), wanted, foreground));
+    ao_history next = { mix(real(0), min(value, real(1)), foreground),
+                        mix(real(0), ao_next_weight(weight, wanted, c.most_weight), foreground),
+                        mix(real(0), ao_next_index(h.index, wanted, c.period), foreground), mix(real(0), d, foreground) };
+    return next;
+}

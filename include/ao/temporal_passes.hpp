@@ -1,0 +1,93 @@
+// The bodies of the temporal passes over a Resources type, as in ao/passes.hpp.
+#pragma once
+
+#include "ao/math.hpp"
+#include "ao/passes.hpp"
+
+#include "ao/detail/shared_begin.inc"
+
+namespace ao {
+
+// Resources: real depth(ivec2), vec4 normal(ivec2), vec4 motion(ivec2), uint history(uint), vec2 rotation(ivec2), vec4 tap(uint).
+template <class Real, class Resources>
+struct temporal_pass {
+#include "ao/detail/scope.inc"
+#include "ao/shared/functions.h"
+
+    Resources resources;
+    int ao_most_samples = 0;
+    int ao_contribution = 0;
+    int ao_history_format = 0;
+    int ao_invalidation = 0;
+    bool ao_reproject = false;
+    bool ao_use_motion = false;
+    bool ao_cubic = false;
+    int ao_normal_source = 0;
+    bool ao_rotate_normals = false;
+    bool ao_parallel = false;
+    bool ao_limit_thickness = false;
+
+    constexpr real ao_load_depth(ivec2 pixel)
+    {
+        return resources.depth(pixel);
+    }
+    constexpr vec4 ao_load_normal(ivec2 pixel)
+    {
+        return resources.normal(pixel);
+    }
+    constexpr vec4 ao_load_motion(ivec2 pixel)
+    {
+        return resources.motion(pixel);
+    }
+    constexpr uint ao_load_history(uint word)
+    {
+        return resources.history(word);
+    }
+    constexpr vec2 ao_load_rotation(ivec2 pixel)
+    {
+        return resources.rotation(pixel);
+    }
+    constexpr vec4 ao_load_tap(uint index)
+    {
+        return resources.tap(index);
+    }
+
+    // clang-format off
+#include "ao/shared/normal_pass.h"
+#include "ao/shared/occlusion_tap.h"
+#include "ao/shared/history_load.h"
+#include "ao/shared/temporal_pass.h"
+    // clang-format on
+};
+
+// Resources: real depth(ivec2), uint history(uint), real row(ivec2).
+template <class Real, class Resources>
+struct temporal_filter_pass {
+#include "ao/detail/scope.inc"
+#include "ao/shared/functions.h"
+
+    Resources resources;
+    int ao_filter_radius = 0;
+    int ao_history_format = 0;
+    bool ao_parallel = false;
+
+    constexpr real ao_load_depth(ivec2 pixel)
+    {
+        return resources.depth(pixel);
+    }
+    constexpr uint ao_load_history(uint word)
+    {
+        return resources.history(word);
+    }
+    constexpr real ao_load_row(ivec2 pixel)
+    {
+        return resources.row(pixel);
+    }
+
+#include "ao/shared/history_load.h"
+#include "ao/shared/temporal_filter_pass.h"
+};
+
+} // namespace ao
+
+#include "ao/detail/shared_end.inc"
