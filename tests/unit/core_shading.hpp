@@ -1,4 +1,4 @@
-// A few pixels of a geometry pass made by hand, and what shades them.
+// A few pixels of a geometry pass made by hand, what shades them, and what they are by the textbook.
 #pragma once
 
 #include "ao/conformance/shade_reference.hpp"
@@ -7,9 +7,11 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -154,6 +156,77 @@ inline glm::dvec3 point_under_pixel(const ao::shade_camera& camera, std::size_t 
 {
     const double x = (static_cast<double>(i) + 0.5) / static_cast<double>(width) * 2 - 1;
     return { x * d / static_cast<double>(camera.projection.matrix[0][0]), 0, -d };
+}
+
+inline double apart(const glm::dvec3& a, const glm::dvec3& b)
+{
+    return std::max({ std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z) });
+}
+
+// Everything in world space and double, as textbooks have it. No maps.
+inline glm::dvec3 textbook(const shading_fixture& f, const shaded_pixel& p, const ao::standard_material& m)
+{
+    glm::dmat4 view(1);
+    for (int c = 0; c < 4; ++c) {
+        for (int r = 0; r < 4; ++r) {
+            view[c][r] = static_cast<double>(f.camera.view[c][r]);
+        }
+    }
+    const glm::dmat4 to_world = glm::inverse(view);
+    const glm::dvec3 position = glm::dvec3(to_world * glm::dvec4(p.position, 1));
+    const glm::dvec3 normal = glm::normalize(glm::dmat3(to_world) * p.normal);
+    const glm::dvec3 to_eye = glm::normalize(glm::dvec3(to_world[3]) - position);
+    glm::dvec3 color = glm::dvec3(m.ambient) * glm::dvec3(f.ambient.coefficients[0]) * static_cast<double>(p.visibility) +
+                       glm::dvec3(m.emission);
+    for (const ao::light& l : f.lights) {
+        glm::dvec3 towards = glm::normalize(glm::dvec3(l.vector));
+        glm::dvec3 light(l.color);
+        if (l.type == ao::light_type::point) {
+            const glm::dvec3 way = glm::dvec3(l.vector) - position;
+            const double d = glm::length(way);
+            towards = way / d;
+            light /= static_cast<double>(l.attenuation.x) + static_cast<double>(l.attenuation.y) * d +
+                     static_cast<double>(l.attenuation.z) * d * d;
+        }
+        const double cosine = glm::dot(normal, towards);
+        if (cosine <= 0) {
+            continue;
+        }
+        const glm::dvec3 mirrored = 2 * cosine * normal - towards;
+        const double base = m.model == ao::specular_model::phong ? glm::dot(mirrored, to_eye)
+                                                                 : glm::dot(normal, glm::normalize(towards + to_eye));
+        const double highlight = std::pow(std::clamp(base, 0.0, 1.0), static_cast<double>(m.shininess));
+        color += light * (glm::dvec3(m.diffuse) * cosine + glm::dvec3(m.specular) * highlight);
+    }
+    return color;
+}
+
+inline glm::dvec3 random_direction(std::mt19937& engine)
+{
+    std::normal_distribution<double> normal;
+    return glm::normalize(glm::dvec3(normal(engine), normal(engine), normal(engine)));
+}
+
+inline ao::light directional(const glm::dvec3& towards, const glm::vec3& color)
+{
+    ao::light l;
+    l.vector = glm::vec3(towards);
+    l.color = color;
+    return l;
+}
+
+// A leaf that only shines.
+inline ao::standard_material lamp(const glm::vec3& color)
+{
+    ao::standard_material m;
+    m.ambient = m.diffuse = glm::vec3(0);
+    m.emission = color;
+    return m;
+}
+
+inline glm::dvec3 rgb(const glm::vec4& color)
+{
+    return { color.x, color.y, color.z };
 }
 
 } // namespace core_test
