@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 using namespace ao;
@@ -183,4 +184,32 @@ TEST_CASE("intervals work in constant expressions")
     STATIC_REQUIRE(unit.hi - unit.lo < 1e-6F);
     STATIC_REQUIRE(math<interval>::ao_radical_inverse(5, 123456789U).is_point());
     STATIC_REQUIRE(math<interval>::ao_radical_inverse(5, 123456789U).lo == math<float>::ao_radical_inverse(5, 123456789U));
+}
+
+TEST_CASE("the bounds of every shared function hold scalar C++'s results, are points where it is exact, and say something")
+{
+    using bounds = conformance::evaluator<interval>;
+    using scalar = conformance::evaluator<float>;
+    for (const conformance::function_info& f : conformance::functions) {
+        const conformance::function_inputs in = conformance::make_inputs(f, 3000);
+        std::size_t unknown = 0;
+        std::size_t outside = 0;
+        std::size_t wide = 0;
+        for (std::size_t i = 0; i < in.a.size(); ++i) {
+            const glm::vec4& a = in.a[i];
+            const glm::vec4& b = in.b[i];
+            const auto allowed = bounds::ao_evaluate(f.function, { a.x, a.y, a.z, a.w }, { b.x, b.y, b.z, b.w });
+            const auto made = scalar::ao_evaluate(f.function, { a.x, a.y, a.z, a.w }, { b.x, b.y, b.z, b.w });
+            for (int k = 0; k < 4; ++k) {
+                unknown += allowed[k].is_unknown() ? 1 : 0;
+                outside += allowed[k].contains(made[k]) ? 0 : 1;
+                wide += allowed[k].is_unknown() || allowed[k].is_point() ? 0 : 1;
+            }
+        }
+        CAPTURE(f.name, in.a.size(), unknown);
+        CHECK(outside == 0);
+        CHECK((!f.exact || wide == 0));
+        // Inputs that are not finite, and helpers that may count as parallel.
+        CHECK(unknown < in.a.size() * 4 / 20);
+    }
 }
