@@ -190,13 +190,13 @@ inline result<draw_plan> plan_drawing(const scene& s, const gbuffer_facts& facts
 // The host's pictures; those that the facts leave out are not looked at.
 template <class Image>
 struct gbuffer_images {
-    Image depth;
-    Image position;
-    Image normal;
-    Image motion;
-    Image ids;
-    Image surface;
-    Image frame;
+    Image depth{};
+    Image position{};
+    Image normal{};
+    Image motion{};
+    Image ids{};
+    Image surface{};
+    Image frame{};
 };
 
 // This frame's and the last frame's camera. `jitter` is part of the projections where there is any.

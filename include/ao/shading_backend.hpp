@@ -15,14 +15,14 @@ namespace ao {
 // facts and options leave out are not looked at.
 template <class Image>
 struct shade_images {
-    Image depth;
-    Image position;
-    Image normal;
-    Image ids;
-    Image surface;
-    Image frame;
-    Image visibility;
-    Image color; // rgba32f: linear, w = 1; background 0 0 0 0
+    Image depth{};
+    Image position{};
+    Image normal{};
+    Image ids{};
+    Image surface{};
+    Image frame{};
+    Image visibility{};
+    Image color{}; // rgba32f: linear, w = 1; background 0 0 0 0
 };
 
 // image and commands: as in `backend`. shade_program: the table, the heap and the pipelines. shade_binding: a program's pictures.

@@ -14,10 +14,10 @@ namespace ao {
 // `visibility` must be the same picture in every frame, or be copied by the host where a frame has no steps.
 template <class Image>
 struct temporal_images {
-    Image depth;
-    Image normal;
-    Image motion;
-    Image visibility; // 1 = open, in facts::output_format
+    Image depth{};
+    Image normal{};
+    Image motion{};
+    Image visibility{}; // 1 = open, in facts::output_format
 };
 
 // image and commands: as in `backend`. temporal_program: pipelines, the sequence, the rotations, eye depth and row values where

@@ -4,10 +4,13 @@
 #include "host/gl_texture.hpp"
 #include "host/vulkan_device.hpp"
 
+#include "ao/gbuffer.hpp"
 #include "ao/picture.hpp"
 
 #include <catch2/catch.hpp>
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <optional>
 
@@ -16,6 +19,7 @@ std::optional<ao::error> run_gl(ao::gl::backend::get_proc_address, const ao::hos
                                 const std::function<bool(ao::camera&)>&);
 std::optional<ao::error> run_vk(const ao::vk::context&, const ao::host_images<ao::vk::image>&, int, int,
                                 const std::function<VkCommandBuffer(ao::camera&)>&);
+std::optional<ao::error> draw_scene(const ao::scene&, const ao::gbuffer_camera&, ao::picture&);
 
 namespace {
 
@@ -141,4 +145,34 @@ TEST_CASE("README, vk", "[examples]")
     ao::picture visibility(ao::pixel_format::r32f, width, height);
     REQUIRE(visible->download(visibility.bytes));
     check(visibility);
+}
+
+TEST_CASE("README, scene", "[examples]")
+{
+    // A floor at y = -1 and a wall at z = -4 up to y = 0.
+    const std::array<glm::vec3, 8> corners{ glm::vec3(-9, -1, 2), { 9, -1, 2 },  { 9, -1, -4 }, { -9, -1, -4 },
+                                            { -9, -1, -4 },       { 9, -1, -4 }, { 9, 0, -4 },  { -9, 0, -4 } };
+    const std::array<std::uint32_t, 12> indices{ 0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7 };
+    const ao::mesh mesh{ corners, {}, {}, {}, {}, indices };
+    const ao::standard_material material;
+    ao::object object;
+    ao::scene scene;
+    scene.meshes = { &mesh, 1 };
+    scene.materials = { &material, 1 };
+    scene.objects = { &object, 1 };
+    scene.ambient = ao::ambient_light(glm::vec3(0.5F));
+    ao::gbuffer_camera camera;
+    camera.projection =
+        ao::make_projection({ -1.0, 1.0, -0.5625, 0.5625, 0.1, 100.0 }, { .rows = ao::first_row::at_ndc_plus_one });
+    ao::picture color(ao::pixel_format::rgba32f, width, height);
+    REQUIRE_FALSE(draw_scene(scene, camera, color));
+    const auto at = [&](int x, int y) { return color.texel<glm::vec4>(static_cast<std::size_t>(y * width + x)); };
+    CHECK(at(32, 2) == glm::vec4(0.0F)); // nothing above the wall
+    CHECK(at(32, 35).x > 0.48F);         // open floor: ambient light times the material's color
+    CHECK(at(32, 35).x <= 0.5F);
+    CHECK(at(32, 24).x < 0.35F); // near the crease
+    CHECK(at(32, 24).x > 0.1F);
+
+    object.mesh = 3;
+    CHECK(draw_scene(scene, camera, color)->code() == ao::errc::invalid_scene);
 }
