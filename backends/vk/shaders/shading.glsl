@@ -36,9 +36,7 @@ real ao_load_visibility(ivec2 pixel)
 {
     real stored = texelFetch(visibility_picture, pixel, 0).x;
     if (visibility_in_codes) {
-        // The driver's own conversion may be one step off.
-        precise real exact = ao_unorm_code(stored, 255.0) / 255.0;
-        return exact;
+        return ao_unorm_value(stored, 255.0);
     }
     return stored;
 }

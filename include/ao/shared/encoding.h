@@ -8,6 +8,13 @@ AO_FN real ao_unorm_code(real value, real top)
     return floor(scaled);
 }
 
+// The value in [0, 1] itself, rounded once: an API's own conversion may be a step off.
+AO_FN real ao_unorm_value(real value, real top)
+{
+    AO_PRECISE real exact = ao_unorm_code(value, top) / top;
+    return exact;
+}
+
 // [-1, 1] from a code in 0 ... top, both ends exact.
 AO_FN real ao_signed_from_code(real code, real top)
 {
