@@ -1,6 +1,7 @@
 // Files of blends: what they mean, and every way in which one can be wrong.
 #include "scene/blend_file.hpp"
 #include "scene/error.hpp"
+#include "tools_support.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -173,4 +174,15 @@ TEST_CASE("a long cycle and long words still make one short line", "[tools][blen
     CHECK(error_of("{\"use\": {\"objects\": {\"floor\": \"" + word + "\"}}}").size() < 200);
     CHECK(error_of("{\"use\": {\"objects\": {\"" + word + "\": \"snow\"}}}").size() < 200);
     CHECK(error_of("{\"use\": {\"objects\": {\"a\\nb\\u0000\": \"snow\"}}}").find('\n') == std::string::npos);
+}
+
+TEST_CASE("the documented blends load", "[tools][blend_file]")
+{
+    const std::vector<std::string> floor{ "floor" };
+    const std::vector<std::string> all{ "asphalt", "snow", "ice", "ground" };
+    const blend_file f =
+        parse_blends("docs/scenes.md", documented_example("blend"), { floor, all }, [](const std::string&) { return 0; });
+    CHECK(f.nodes.size() == 3);
+    CHECK(f.of_object == std::vector<int>{ -2 });
+    CHECK(f.of_material.back() == -1);
 }

@@ -155,3 +155,10 @@ TEST_CASE("an environment's picture becomes ambient light, linear or sRGB", "[to
     CHECK(failure_of(dir.file("negative.exr", encode_exr(size, std::vector<glm::vec3>(size.pixels(), glm::vec3(-1.0f)), "RGB")))
               .find("negative") != std::string::npos);
 }
+
+TEST_CASE("the documented lights load", "[tools][lights_file]")
+{
+    const scene_lights s = parse_lights("docs/scenes.md", documented_example("lights"), no_pictures);
+    CHECK(s.lights.size() == 2);
+    CHECK(s.ambient.coefficients[0].x == 0.3f);
+}

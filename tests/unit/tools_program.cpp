@@ -98,6 +98,9 @@ TEST_CASE("bad requests end with one line and status 1", "[tools][program]")
                                                        "property float x\nproperty float y\nproperty float z\n"
                                                        "element face 100\nproperty list uchar int vertex_indices\n"
                                                        "end_header\nabc");
+    const std::string blend = dir.file("blend.json", "{\"blends\": {\n  \"x\": {\"first\": \"no such material\"}}}");
+    const std::string lights = dir.file("lights.json", "{\"lights\": [\n  {\"type\": \"spot\"}]}");
+    const std::string no_json = dir.file("no.json", "{");
     const std::size_t count = files_in(dir.path);
     const std::pair<words, std::string> cases[] = {
         { {}, "subcommand" },
@@ -154,6 +157,18 @@ TEST_CASE("bad requests end with one line and status 1", "[tools][program]")
         { { "render", "courtyard", "--out", nan + "/inside" }, nan },
         { { "render", "courtyard", "--out", "/proc/pictures" }, "/proc/pictures" },
         { { "render", "courtyard", "--colour", "red" }, "--colour" },
+        { { "render", "courtyard", "--gbuffer", "film" }, "--gbuffer" },
+        { { "render", "courtyard", "--depth", "linear" }, "--depth linear" },
+        { { "render", "courtyard", "--shade", "--normals", "none" }, "--shade needs normals" },
+        { { "render", "courtyard", "--blend", blend }, "--blend needs --shade" },
+        { { "render", "courtyard", "--lights", "none" }, "--lights needs --shade" },
+        { { "render", "courtyard", "--shade", "--blend", blend }, "blend.json:2:8: /blends/x: has no member 'second'" },
+        { { "render", "courtyard", "--shade", "--blend", "missing.json" }, "missing.json: no such file" },
+        { { "render", "courtyard", "--shade", "--blend", no_json }, "no.json:1:" },
+        { { "render", "courtyard", "--shade", "--blend", dir.path.string() }, "not a regular file" },
+        { { "render", "courtyard", "--shade", "--lights", lights }, "lights.json:2:12: /lights/0/type" },
+        { { "render", "courtyard", "--shade", "--lights", "missing.json" }, "missing.json: no such file" },
+        { { "render", "courtyard", "--shade", "--lights", no_json }, "no.json:1:" },
     };
     for (const auto& [arguments, reason] : cases)
         check_failure(dir, arguments, reason);
@@ -188,7 +203,7 @@ TEST_CASE("the narrowest pictures are pictures", "[tools][program]")
     const scratch_directory dir;
     for (const char* size : { "1x1", "1x7", "4097x1" }) {
         const std::string json = (dir.path / "numbers.json").string();
-        CHECK(run(dir, { "render", "courtyard", "--size", size, "--frames", "1", "--json", json }) == 0);
+        CHECK(run(dir, { "render", "courtyard", "--gbuffer", "rays", "--size", size, "--frames", "1", "--json", json }) == 0);
         CHECK(read_all(dir.path / "err").empty());
         const auto numbers = nlohmann::json::parse(read_all(json));
         for (const auto& pair : numbers["agreement"])
@@ -211,11 +226,84 @@ TEST_CASE("render writes what it says, and the numbers agree with themselves", "
     CHECK(numbers["size"] == std::vector<int>{ 96, 54 });
     const auto run_0 = numbers["runs"][0];
     CHECK(run_0["backend"] == "cpu");
-    CHECK(run_0["passes"].size() == 3);
+    CHECK(run_0["passes"].size() == 4); // a depth buffer is made linear first
     CHECK(run_0["total_ms"] > 0.0);
     CHECK(run_0["rmse"] < numbers["best_constant_rmse"]);
     CHECK(numbers["agreement"].empty());
 }
+
+TEST_CASE("shading writes its pictures with and without occlusion, and the numbers say what was done", "[tools][program]")
+{
+    const scratch_directory dir;
+    const std::string json = (dir.path / "numbers.json").string();
+    // Two walls of different materials; one is drawn with a blend of the two.
+    const std::string model = dir.file("model.obj", "mtllib model.mtl\n"
+                                                    "v -1 0 0\nv 1 0 0\nv 1 1 0\nv -1 1 0\nv -1 0 1\nv 1 0 1\n"
+                                                    "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+                                                    "o wall\nusemtl red\nf 1/1 2/2 3/3 4/4\n"
+                                                    "o floor\nusemtl blue\nf 5/1 6/2 2/3 1/4\n");
+    dir.file("model.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\nmap_Kd missing.png\n");
+    const std::string blend = dir.file("blend.json", R"({"blends": {"purple": {"first": "red", "second": "blue", "k": 0.5}},
+"use": {"materials": {"red": "purple"}}})");
+    for (const char* gbuffer : { "raster", "rays" }) {
+        const std::filesystem::path out = dir.path / gbuffer;
+        INFO(gbuffer);
+        REQUIRE(run(dir, { "render", model,         "--backend", "cpu",       "--size",     "96x54",   "--frames",
+                           "1",      "--reference", "16",        "--gbuffer", gbuffer,      "--shade", "--blend",
+                           blend,    "--lights",    "none",      "--out",     out.string(), "--json",  json }) == 0);
+        for (const char* name :
+             { "shaded-cpu.png", "shaded-cpu-plain.png", "visibility-cpu.png", "reference.png", "report.html" })
+            CHECK(std::filesystem::file_size(out / name) > 100);
+        CHECK(read_all(out / "shaded-cpu.png") != read_all(out / "shaded-cpu-plain.png"));
+        // What is missing is said once, and the name is kept.
+        const std::string message = read_all(dir.path / "err");
+        CHECK(message.rfind("ao: warning: ", 0) == 0);
+        CHECK(message.find('\n') == message.size() - 1);
+        const auto numbers = nlohmann::json::parse(read_all(json));
+        CHECK(numbers["missing_textures"] == std::vector<std::string>{ "missing.png" });
+        CHECK(numbers["settings"]["gbuffer"] == gbuffer);
+        CHECK(numbers["shading"]["blends"].size() == 1);
+        CHECK(numbers["shading"]["blends"][0]["leaves"] == 2);
+        CHECK(numbers["shading"]["passes"] == 1);
+        CHECK(numbers["scenes"][0]["shade_ms"] > 0.0);
+        CHECK(numbers["scenes"][0]["clamped_weights"] == 0);
+        CHECK(numbers["scenes"][0].contains("draw_ms") == (std::string(gbuffer) == "raster"));
+        CHECK(numbers["variants"].empty() == (std::string(gbuffer) == "rays"));
+        CHECK(numbers["runs"][0]["rmse"] < 1.0);
+    }
+}
+
+#if defined(AO_HAS_GL) && defined(AO_HAS_VK)
+TEST_CASE("given the same pictures the backends shade alike in every bit; drawn by each they agree on objects",
+          "[tools][program]")
+{
+    const scratch_directory dir;
+    const std::string json = (dir.path / "numbers.json").string();
+    const std::vector<std::string> request{ "render", "courtyard", "--shade", "--route", "compute", "--size",
+                                            "96x54",  "--frames",  "1",       "--json",  json,      "--gbuffer" };
+    const auto with = [&](const char* gbuffer) {
+        std::vector<std::string> words = request;
+        words.push_back(gbuffer);
+        return words;
+    };
+    REQUIRE(run(dir, with("rays")) == 0);
+    const auto rays = nlohmann::json::parse(read_all(json));
+    CHECK(rays["shaded_agreement"].size() == 3);
+    for (const char* which : { "agreement", "shaded_agreement" })
+        for (const auto& pair : rays[which])
+            CHECK(pair["differing"] == 0);
+    REQUIRE(run(dir, with("raster")) == 0);
+    const auto raster = nlohmann::json::parse(read_all(json));
+    CHECK(raster["shaded_agreement"].size() == 3);
+    int compared = 0;
+    for (const auto& pair : raster["gbuffer_agreement"])
+        if (pair["of"] == "object and material") {
+            ++compared;
+            CHECK(pair["differing"] <= 5); // of 5184: pixels whose centres lie on an edge
+        }
+    CHECK(compared == 3);
+}
+#endif
 
 TEST_CASE("an interrupt in the middle leaves no file", "[tools][program]")
 {

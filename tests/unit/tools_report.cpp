@@ -19,7 +19,9 @@ report_data example()
     d.runs.push_back({ "cpu", "<script>", "8 lanes", { { "occlusion", 1.5 }, { "filter", 0.25 } }, 1.75, 2.0, {} });
     d.runs.push_back({ "gl", "llvmpipe", "compute", {}, 12.0, 30.0, report_error{ 0.0763, -0.01, 0.25 } });
     d.best_constant = report_error{ 0.16, 0.0, 0.5 };
-    d.agreements.push_back({ "cpu", "gl", 12, 3, 0.5 });
+    d.scenes.push_back({ "vk", "a<b", "graphics", 7.25, "2 objects", {}, "" });
+    d.agreements.push_back({ "visibility", "cpu", "gl", 12, 3, 0.5 });
+    d.agreements.push_back({ "object and material", "cpu", "gl", 12, 0, {} });
     d.pictures = { { "one", "\x01\x02\x03" }, { "two & more", "abc" } };
     return d;
 }
@@ -54,8 +56,9 @@ TEST_CASE("the report holds every number and needs nothing else", "[tools][repor
     CHECK(html.find("<b>") == std::string::npos);
     CHECK(html.find("&lt;b&gt;&quot;scene&quot; &amp; &#39;co&#39;&lt;/b&gt;") != std::string::npos);
     CHECK(count(html, "<script>") == 1); // its own; the device's name is text
-    for (const char* cell : { "0.0763", "-0.0100", "0.2500", "best constant", "occlusion 1.50\nfilter 0.25", "two &amp; more",
-                              "data:image/png;base64,AQID", "data:image/png;base64,YWJj" })
+    for (const char* cell :
+         { "0.0763", "-0.0100", "0.2500", "best constant", "occlusion 1.50\nfilter 0.25", "two &amp; more", "7.25", "a&lt;b",
+           "object and material", "data:image/png;base64,AQID", "data:image/png;base64,YWJj" })
         CHECK(html.find(cell) != std::string::npos);
     CHECK(html.find("http") == std::string::npos);
     CHECK(count(html, "<table") == count(html, "</table>"));
@@ -68,9 +71,11 @@ TEST_CASE("a report without pictures or agreement leaves them out", "[tools][rep
     report_data d = example();
     d.pictures.clear();
     d.agreements.clear();
+    d.scenes.clear();
     const std::string html = make_report(d);
     CHECK(html.find("<script>") == std::string::npos);
     CHECK(html.find("Agreement") == std::string::npos);
+    CHECK(html.find("Drawing") == std::string::npos);
     CHECK(make_table(d).find("differing") == std::string::npos);
 }
 
@@ -80,7 +85,7 @@ TEST_CASE("columns of the table line up", "[tools][report]")
     std::vector<std::string> lines;
     for (std::size_t from = 0, to; (to = table.find('\n', from)) != std::string::npos; from = to + 1)
         lines.push_back(table.substr(from, to - from));
-    REQUIRE(lines.size() == 7);
+    REQUIRE(lines.size() == 11);
     const std::size_t device = lines[0].find("device");
     CHECK(lines[1].substr(device, 8) == "<script>");
     CHECK(lines[2].substr(device, 8) == "llvmpipe");

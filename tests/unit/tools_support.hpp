@@ -9,6 +9,10 @@
 #include <string_view>
 #include <unistd.h>
 
+#ifndef AO_DOCS
+#define AO_DOCS ""
+#endif
+
 // A directory of its own for one test, gone afterwards.
 class scratch_directory {
 public:
@@ -36,6 +40,14 @@ inline std::string read_all(const std::filesystem::path& path)
 {
     std::ifstream in(path, std::ios::binary);
     return { std::istreambuf_iterator<char>(in), {} };
+}
+
+// The JSON behind the comment "example: NAME" in docs/scenes.md. AO_DOCS is the directory.
+inline std::string documented_example(const std::string& name)
+{
+    const std::string text = read_all(std::filesystem::path(AO_DOCS) / "scenes.md");
+    const std::size_t start = text.find("```json\n", text.find("<!-- example: " + name + " -->")) + 8;
+    return text.substr(start, text.find("```", start) - start);
 }
 
 inline std::size_t files_in(const std::filesystem::path& directory)

@@ -129,8 +129,13 @@ void parse_inputs(const render_arguments& a, facts& f)
         { "octahedral", { normal_source::octahedral, pixel_format::rg16 } },
         { "none", { normal_source::from_depth, pixel_format::rgba16f } },
     } };
-    std::tie(f.depth, f.depth_format) = choose("--depth", a.depth, depths);
+    const bool rays = a.gbuffer == "rays";
+    std::tie(f.depth, f.depth_format) = choose("--depth", !a.depth.empty() ? a.depth : rays ? "linear" : "d32f", depths);
+    if (f.depth == depth_source::linear && !rays)
+        throw error("--depth linear: no rasterizer stores it; it takes --gbuffer rays");
     std::tie(f.normals, f.normal_format) = choose("--normals", a.normals, normal_formats);
+    if (a.shade && f.normals == normal_source::from_depth)
+        throw error("--normals none: --shade needs normals");
 }
 
 ao::settings parse_settings(const render_arguments& a)
@@ -173,8 +178,14 @@ void add_render_options(CLI::App& command, render_arguments& a)
     command.add_option("--bias", a.bias, "scene units");
     command.add_option("--thickness", a.thickness, "in radii, or 'infinite'");
     command.add_option("--filter", a.filter, "pixels a side, odd, 1 to 31");
-    command.add_option("--depth", a.depth, "input: linear|d32f|d24|position16|position32");
+    command.add_option("--gbuffer", a.gbuffer,
+                       "depth and normals from: raster (each backend draws its own)|rays (the same for all)");
+    command.add_option("--depth", a.depth,
+                       "input: d32f|d24|position16|position32, and of rays linear; without it d32f, or linear of rays");
     command.add_option("--normals", a.normals, "input: rgba16f|rgb10a2|octahedral|none");
+    command.add_flag("--shade", a.shade, "shade the scene, ambient light scaled by visibility");
+    command.add_option("--blend", a.blend, "file of blended materials, for --shade (docs/scenes.md)");
+    command.add_option("--lights", a.lights, "default|none|file of lights, for --shade (docs/scenes.md)");
     command.add_option("--size", a.size, "WIDTHxHEIGHT");
     command.add_option("--eye", a.eye, "X,Y,Z in scene units; without it the whole scene is in view");
     command.add_option("--yaw", a.yaw, "degrees; 0 looks along -z, 90 along +x");
@@ -218,7 +229,15 @@ render_options check_arguments(const render_arguments& a)
     o.settings = parse_settings(a);
     o.size = parse_size(a.size);
     o.projection = parse_projection(a.projection);
+    static constexpr std::array<std::pair<std::string_view, bool>, 2> origins{ { { "raster", false }, { "rays", true } } };
+    o.rays = choose("--gbuffer", a.gbuffer, origins);
     parse_inputs(a, o.inputs);
+    o.shade = a.shade;
+    if (!a.shade && (!a.blend.empty() || !a.lights.empty()))
+        throw error(std::string(a.blend.empty() ? "--lights" : "--blend") + " needs --shade");
+    o.blend = a.blend;
+    if (!a.lights.empty())
+        o.lights = a.lights;
     o.inputs.width = o.size.width;
     o.inputs.height = o.size.height;
     o.inputs.parallel = o.projection.options.parallel;

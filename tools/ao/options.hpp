@@ -31,7 +31,11 @@ struct render_options {
     std::string device; // part of a name; empty: the software drivers
     int lanes = 0;      // of the cpu backend: 0 the widest, 1 scalar, 4, 8, 16
     ao::settings settings;
-    facts inputs; // parallel set from the projection
+    facts inputs;      // parallel set from the projection
+    bool rays = false; // where the G-buffer comes from; else each backend draws its own
+    bool shade = false;
+    std::string blend;              // file, empty: none
+    std::string lights = "default"; // default, none, or a file
     extent size{ 1280, 720 };
     std::optional<glm::vec3> eye;
     float yaw = 0;
@@ -47,12 +51,13 @@ struct render_options {
 
 // Adds the subcommand's options; `read` is what they are parsed into.
 struct render_arguments {
-    std::string scene, backend = "all", device, route = "all", lanes = "auto", kernel = "hemisphere", depth = "linear";
+    std::string scene, backend = "all", device, route = "all", lanes = "auto", kernel = "hemisphere", depth;
     std::string normals = "rgba16f", size = "1280x720", eye, projection = "perspective", out, json, thickness;
+    std::string gbuffer = "raster", blend, lights;
     int taps = 32, filter = 5, frames = 5;
     long long seed = 1, reference = 0;
     double radius = 1.0, bias = 0.02, yaw = 0.0, pitch = 0.0, fov = 0.0;
-    bool has_yaw = false, has_pitch = false, has_fov = false, progress = false;
+    bool has_yaw = false, has_pitch = false, has_fov = false, progress = false, shade = false;
 };
 void add_render_options(CLI::App& command, render_arguments& read);
 

@@ -15,10 +15,19 @@ struct render_result {
     std::size_t degenerate = 0;
     tools::camera camera;
     tools::frustum frustum;
-    gbuffer g;
-    std::vector<run_outcome> runs;
+    std::vector<std::string> warnings;
+    std::vector<std::string> missing_textures;
+    ao::gbuffer_facts targets;
+    std::vector<ao::draw_variant> variants; // in use, of raster
+    std::optional<ao::shade_plan> shading;
+    std::optional<gbuffer> rays; // with --gbuffer rays, or for the truth
+    all_outcomes outcomes;
+    std::vector<shown_surfaces> surfaces; // of each scene's outcome; one where there is none
     std::optional<truth_halves> truth;
 };
+
+// Pixels that both a run and the rays saw a surface in. Precondition: there are rays.
+[[nodiscard]] std::vector<std::uint8_t> compared_pixels(const render_result& r, const run_outcome& run);
 
 // The numbers; no pictures yet.
 [[nodiscard]] report_data tables_of(const render_result& r);

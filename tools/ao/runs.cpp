@@ -1,11 +1,14 @@
 #include "ao/runs.hpp"
 
 #include "host/runner.hpp"
+#include "host/scene_runner.hpp"
 #include "scene/error.hpp"
 #include "scene/signals.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cstring>
+#include <functional>
 
 namespace ao::tools {
 namespace {
@@ -74,41 +77,126 @@ void time_frames(run_outcome& out, host::runner& r, int frames)
     out.total_ms = median(totals);
 }
 
-run_outcome run(host::runner& r, const std::string& label, const run_inputs& in)
+using clock = std::chrono::steady_clock;
+
+double ms_since(clock::time_point start)
+{
+    return std::chrono::duration<double, std::milli>(clock::now() - start).count();
+}
+
+// One untimed frame, then the median of the others.
+double median_of_frames(int frames, const std::string& where, const std::function<ao::result<double>()>& once)
+{
+    std::vector<double> times;
+    for (int frame = 0; frame < frames; ++frame) {
+        times.push_back(take(where, once()));
+        stop_if_interrupted();
+    }
+    return median(std::move(times));
+}
+
+run_outcome run(host::runner& r, const std::string& label, const run_inputs& in, const picture_set& pictures)
 {
     run_outcome out;
     out.label = label;
     out.backend = r.backend();
     out.device = r.device();
     out.route = r.route();
-    (void)take(out.backend, r.prepare(in.settings, in.facts, in.camera));
-    (void)take(out.backend, r.upload(in.depth, in.normal));
+    (void)take(out.backend, r.prepare(in.settings, in.facts, in.view.effect));
+    const ao::picture& depth = in.facts.depth == depth_source::linear     ? in.linear_depth
+                               : in.facts.depth == depth_source::position ? pictures[host::scene_picture::position]
+                                                                          : pictures[host::scene_picture::depth];
+    (void)take(out.backend, r.upload(depth, pictures[host::scene_picture::normal]));
     time_frames(out, r, in.frames);
-    const picture visibility = take(out.backend, r.download());
+    const ao::picture visibility = take(out.backend, r.download());
     out.visibility.resize(visibility.pixels());
     std::memcpy(out.visibility.data(), visibility.bytes.data(), visibility.bytes.size());
     return out;
 }
 
+// Draws, or uploads what was given instead.
+void fill_targets(scene_outcome& out, host::scene_runner& r, const run_inputs& in)
+{
+    if (in.pictures) {
+        out.drawn = *in.pictures;
+        (void)take(out.backend, r.make_targets(in.targets));
+        for (std::size_t i = 0; i < host::scene_picture_count; ++i)
+            if (!out.drawn.pictures[i].bytes.empty())
+                (void)take(out.backend, r.upload(static_cast<host::scene_picture>(i), out.drawn.pictures[i]));
+        return;
+    }
+    const auto start = clock::now();
+    (void)take(out.backend, r.load(in.scene, in.targets));
+    (void)take(out.backend, r.draw(in.view.drawing));
+    out.first_draw_ms = ms_since(start);
+    stop_if_interrupted();
+    out.draw_ms = median_of_frames(in.frames, out.backend, [&] { return r.draw(in.view.drawing); });
+    out.counts = r.counts();
+    for (std::size_t i = 0; i < host::scene_picture_count; ++i)
+        if (host::format_of(in.targets, static_cast<host::scene_picture>(i)))
+            out.drawn.pictures[i] = take(out.backend, r.download(static_cast<host::scene_picture>(i)));
+}
+
+void shade(scene_outcome& out, host::scene_runner& r, const run_inputs& in, const std::vector<float>& visibility)
+{
+    const auto start = clock::now();
+    (void)take(out.backend, r.prepare_shading(*in.shading, in.heap));
+    (void)take(out.backend, r.shade());
+    out.first_shade_ms = ms_since(start);
+    out.clamped = take(out.backend, r.clamped_weights());
+    out.plain = take(out.backend, r.download(host::scene_picture::color));
+    stop_if_interrupted();
+    ao::picture map(pixel_format::r32f, in.targets.width, in.targets.height);
+    std::memcpy(map.bytes.data(), visibility.data(), map.bytes.size());
+    (void)take(out.backend, r.upload(host::scene_picture::visibility, map));
+    out.shade_ms = median_of_frames(in.frames, out.backend, [&] { return r.shade(); });
+    out.color = take(out.backend, r.download(host::scene_picture::color));
+}
+
 } // namespace
 
-std::vector<run_outcome> run_all(const render_options& o, const run_inputs& in)
+all_outcomes run_all(const render_options& o, const run_inputs& in)
 {
-    std::vector<run_outcome> runs;
+    all_outcomes all;
+    struct route {
+        std::string name;
+        std::string label;
+    };
     // Each with its device gone before the next begins: none shares the machine with another.
-    const auto add = [&](const std::string& backend, const std::string& route, const std::string& label) {
-        for (const host::runner_ptr& r : take(backend, host::make_runners(backend, o.device, route)))
-            runs.push_back(run(*r, label, in));
+    const auto add = [&](const std::string& backend, const std::vector<route>& routes) {
+        std::vector<host::scene_runner_ptr> scenes;
+        if (!in.pictures || in.shading) {
+            scenes = take(backend, host::make_scene_runners(backend, o.device));
+            host::scene_runner& r = *scenes.front();
+            scene_outcome out;
+            out.label = out.backend = backend;
+            out.device = r.device();
+            out.route = r.route();
+            fill_targets(out, r, in);
+            all.scenes.push_back(std::move(out));
+        }
+        const std::size_t first = all.runs.size();
+        for (const route& each : routes) {
+            for (const host::runner_ptr& r : take(backend, host::make_runners(backend, o.device, each.name))) {
+                all.runs.push_back(run(*r, each.label, in, scenes.empty() ? *in.pictures : all.scenes.back().drawn));
+                all.runs.back().scene = scenes.empty() ? 0 : all.scenes.size() - 1;
+            }
+        }
+        if (in.shading)
+            shade(all.scenes.back(), *scenes.front(), in, all.runs[first].visibility);
     };
     if (o.cpu)
-        add("cpu", o.lanes == 0 ? "" : o.lanes == 1 ? "scalar" : "lanes" + std::to_string(o.lanes), "cpu");
-    if (o.gl && o.gl_compute)
-        add("gl", "compute", "gl");
-    if (o.gl && o.gl_fragment)
-        add("gl", "fragment", "gl-fragment");
+        add("cpu", { { o.lanes == 0 ? "" : o.lanes == 1 ? "scalar" : "lanes" + std::to_string(o.lanes), "cpu" } });
+    std::vector<route> gl;
+    if (o.gl_compute)
+        gl.push_back({ "compute", "gl" });
+    if (o.gl_fragment)
+        gl.push_back({ "fragment", "gl-fragment" });
+    if (o.gl)
+        add("gl", gl);
     if (o.vk)
-        add("vk", "", "vk");
-    return runs;
+        add("vk", { { "", "vk" } });
+    return all;
 }
 
 } // namespace ao::tools

@@ -23,6 +23,7 @@
 #endif
 #ifdef AO_HAS_VK
 #include "ao/vk/backend.hpp"
+#include "host/vulkan_device.hpp"
 #endif
 
 namespace ao::host {
@@ -95,6 +96,8 @@ struct vk_runner_options {
     vk::group_size group{};
 };
 ao::result<runner_ptr> make_vk_runner(const vk_runner_options& o = {});
+// What a device of this program lends to the backend, with what was switched on.
+vk::context vk_context_of(const vulkan_device& device, vk::group_size group = {});
 #endif
 
 // What `--backend`, `--device` and `--route` name.

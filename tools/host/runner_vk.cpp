@@ -182,19 +182,26 @@ private:
 
 } // namespace
 
+vk::context vk_context_of(const vulkan_device& device, vk::group_size group)
+{
+    vk::context c;
+    c.instance = device.instance;
+    c.physical_device = device.physical;
+    c.device = device.device;
+    c.get_instance_proc_addr = vkGetInstanceProcAddr;
+    c.group = group;
+    c.enabled = { device.dynamic_rendering, device.extended_dynamic_state, device.features.multiDrawIndirect == VK_TRUE,
+                  device.features.drawIndirectFirstInstance == VK_TRUE };
+    return c;
+}
+
 ao::result<runner_ptr> make_vk_runner(const vk_runner_options& o)
 {
     auto device = vulkan_device::create({ o.device, o.validation });
     if (!device) {
         return device_error(device.reason());
     }
-    vk::context context;
-    context.instance = (*device)->instance;
-    context.physical_device = (*device)->physical;
-    context.device = (*device)->device;
-    context.get_instance_proc_addr = vkGetInstanceProcAddr;
-    context.group = o.group;
-    auto b = vk::backend::create(context);
+    auto b = vk::backend::create(vk_context_of(**device, o.group));
     if (!b) {
         return b.error();
     }

@@ -86,17 +86,17 @@ using made = ao::result<std::vector<scene_runner_ptr>>;
 // Nothing where the program was built without the backend.
 std::optional<ao::result<scene_runner_ptr>> make_one(std::string_view backend, [[maybe_unused]] const std::string& device)
 {
-#ifdef AO_HAS_CPU_SCENES
+#ifdef AO_HAS_CPU
     if (backend == "cpu") {
         return make_cpu_scene_runner();
     }
 #endif
-#ifdef AO_HAS_GL_SCENES
+#ifdef AO_HAS_GL
     if (backend == "gl") {
         return make_gl_scene_runner(gl_context_of(device), { .restore_state = false });
     }
 #endif
-#ifdef AO_HAS_VK_SCENES
+#ifdef AO_HAS_VK
     if (backend == "vk") {
         return make_vk_scene_runner({ .device = device });
     }

@@ -80,13 +80,13 @@ protected:
 
 using scene_runner_ptr = std::unique_ptr<scene_runner>;
 
-#ifdef AO_HAS_CPU_SCENES
+#ifdef AO_HAS_CPU
 ao::result<scene_runner_ptr> make_cpu_scene_runner(const cpu::options& o = {});
 #endif
-#ifdef AO_HAS_GL_SCENES
+#ifdef AO_HAS_GL
 ao::result<scene_runner_ptr> make_gl_scene_runner(const gl_options& context = {}, const gl::raster_options& o = {});
 #endif
-#ifdef AO_HAS_VK_SCENES
+#ifdef AO_HAS_VK
 ao::result<scene_runner_ptr> make_vk_scene_runner(const vk_runner_options& o = {});
 #endif
 

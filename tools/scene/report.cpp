@@ -57,11 +57,21 @@ std::vector<row> run_table(const report_data& data, const char* between_passes)
     return rows;
 }
 
+std::vector<row> scene_table(const report_data& data)
+{
+    std::vector<row> rows{ { "backend", "device", "route", "drawing ms", "drawn", "shading ms", "shading" } };
+    const auto ms = [](const std::optional<double>& value) { return value ? fixed(*value, 2) : std::string("–"); };
+    for (const report_scene& s : data.scenes)
+        rows.push_back({ s.backend, s.device, s.route, ms(s.draw_ms), s.draws, ms(s.shade_ms), s.shading });
+    return rows;
+}
+
 std::vector<row> agreement_table(const report_data& data)
 {
-    std::vector<row> rows{ { "one", "other", "pixels", "differing", "largest difference" } };
+    std::vector<row> rows{ { "of", "one", "other", "pixels", "differing", "largest difference" } };
     for (const report_agreement& a : data.agreements)
-        rows.push_back({ a.a, a.b, std::to_string(a.pixels), std::to_string(a.differing), shortest(a.largest) });
+        rows.push_back(
+            { a.what, a.a, a.b, std::to_string(a.pixels), std::to_string(a.differing), a.largest ? shortest(*a.largest) : "–" });
     return rows;
 }
 
@@ -115,7 +125,7 @@ h1 { font-size: 1.5rem } h2 { font-size: 1.15rem; margin-top: 2rem }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums }
 th, td { text-align: left; padding: .25rem .8rem .25rem 0; border-bottom: 1px solid var(--line); vertical-align: top }
 .wide { overflow-x: auto } .wide th, .wide td { white-space: pre } .number { text-align: right }
-.facts th { font-weight: 600; padding-right: 1.5rem }
+.facts th { font-weight: 600; padding-right: 1.5rem; white-space: nowrap } .facts td { white-space: pre-line }
 .chooser { display: flex; flex-wrap: wrap; justify-content: space-between; gap: 1rem; margin: .5rem 0 }
 select { max-width: 100% }
 select, input { font: inherit; color: inherit; background: var(--soft); border: 1px solid var(--line); border-radius: 4px; padding: .15rem .4rem }
@@ -231,6 +241,10 @@ std::string make_report(const report_data& data)
         out += "<tr><th>" + escape_html(name) + "</th><td>" + escape_html(value) + "</td></tr>\n";
     out += "</table>\n<h2>Runs</h2>\n";
     append_html(out, run_table(data, "\n"));
+    if (!data.scenes.empty()) {
+        out += "<h2>Drawing and shading</h2>\n";
+        append_html(out, scene_table(data));
+    }
     if (!data.agreements.empty()) {
         out += "<h2>Agreement in bits</h2>\n";
         append_html(out, agreement_table(data));
@@ -245,6 +259,10 @@ std::string make_table(const report_data& data)
 {
     std::string out;
     append_text(out, run_table(data, ", "));
+    if (!data.scenes.empty()) {
+        out += '\n';
+        append_text(out, scene_table(data));
+    }
     if (!data.agreements.empty()) {
         out += '\n';
         append_text(out, agreement_table(data));

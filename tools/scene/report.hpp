@@ -29,12 +29,24 @@ struct report_run {
     std::optional<report_error> error; // absent without a reference
 };
 
+// What a backend drew and shaded.
+struct report_scene {
+    std::string backend;
+    std::string device;
+    std::string route;
+    std::optional<double> draw_ms;  // absent where it drew nothing
+    std::string draws;              // objects, shaders and calls
+    std::optional<double> shade_ms; // absent without shading
+    std::string shading;            // passes and targets
+};
+
 struct report_agreement {
+    std::string what;
     std::string a;
     std::string b;
     std::size_t pixels = 0;
     std::size_t differing = 0;
-    double largest = 0.0;
+    std::optional<double> largest; // absent where a difference has no size
 };
 
 struct report_picture {
@@ -47,6 +59,7 @@ struct report_data {
     std::vector<std::pair<std::string, std::string>> facts; // scene, size, camera, settings, in this order
     std::vector<report_run> runs;
     std::optional<report_error> best_constant; // the control beside the runs
+    std::vector<report_scene> scenes;
     std::vector<report_agreement> agreements;
     std::vector<report_picture> pictures; // the first two face each other when the page opens
 };

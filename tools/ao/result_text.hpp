@@ -1,0 +1,21 @@
+#pragma once
+
+#include "ao/gbuffer.hpp"
+#include "ao/options.hpp"
+
+#include <string>
+
+namespace ao::tools {
+
+// Words and numbers of the report and the JSON.
+[[nodiscard]] std::string text(double value);
+[[nodiscard]] std::string text(float value);
+[[nodiscard]] std::string size_text(extent size);
+[[nodiscard]] const char* kernel_text(kernel_type k);
+[[nodiscard]] const char* depth_text(const facts& f);
+[[nodiscard]] const char* normals_text(const facts& f);
+[[nodiscard]] std::string projection_text(const projection_choice& p);
+// "alpha map, normal map, culled"; "plain" where there is nothing to do.
+[[nodiscard]] std::string variant_text(const draw_variant& v);
+
+} // namespace ao::tools
