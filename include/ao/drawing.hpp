@@ -30,6 +30,27 @@ inline affine_map make_affine_map(const matrix4& m)
     return { row(0), row(1), row(2) };
 }
 
+// The specialisation constants of shaders of the geometry pass, by id: the options of ao/shared/geometry_pass.h and what else a
+// variant and the facts decide. Variants alike in these share a shader.
+using geometry_options = std::array<std::uint32_t, 13>;
+
+inline geometry_options make_geometry_options(const draw_variant& v, const gbuffer_facts& f, bool driver_samples)
+{
+    return { v.alpha_map,
+             v.normal_map,
+             v.uvs,
+             v.frame,
+             v.deforming,
+             f.position,
+             f.normal,
+             f.motion,
+             f.ids,
+             f.surface,
+             f.frame,
+             static_cast<std::uint32_t>(f.normals),
+             reads_maps(v) && driver_samples };
+}
+
 // What an object's instance is made of, beside its matrices.
 struct drawn_object {
     int object = 0; // of the scene

@@ -120,9 +120,9 @@ using linearize_constants = math<float>::ao_depth_decode;
 using occlusion_constants = occlusion_pass<float, no_resources>::ao_occlusion_constants;
 using filter_constants = filter_pass<float, no_resources>::ao_filter_constants;
 
-// The constants of a pass as the struct that its body takes. Precondition: Constants is the one of the pass's type.
-template <class Constants>
-constexpr Constants constants_of(const pass& p)
+// The constants of a pass (or a temporal step) as the struct that its body takes. Precondition: Constants is the one of its type.
+template <class Constants, class Pass>
+constexpr Constants constants_of(const Pass& p)
 {
     assert(p.constants_size == sizeof(Constants));
     std::array<std::byte, sizeof(Constants)> bytes{};
@@ -134,8 +134,8 @@ constexpr Constants constants_of(const pass& p)
 
 namespace detail {
 
-template <class Constants>
-constexpr void set_constants(pass& p, const Constants& constants)
+template <class Pass, class Constants>
+constexpr void set_constants(Pass& p, const Constants& constants)
 {
     static_assert(sizeof(Constants) <= std::tuple_size_v<decltype(p.constants)>);
     const auto bytes = std::bit_cast<std::array<std::byte, sizeof(Constants)>>(constants);
@@ -172,6 +172,17 @@ constexpr std::optional<error> validate(const facts& f)
         return fail(errc::unsupported_format, "visibility must be r32f or r8");
     }
     return std::nullopt;
+}
+
+constexpr linearize_constants make_linearize_constants(const facts& f, const projection_constants& folded)
+{
+    linearize_constants c = folded.decode;
+    if (f.depth != depth_source::hardware) {
+        c = {};
+        c.scale = f.depth == depth_source::position ? -1.0F : 1.0F;
+        c.background = folded.decode.background;
+    }
+    return c;
 }
 
 // Relative rounding of what linearize reads or the host stores, and of the depth buffer's own steps: what an error-free
@@ -227,13 +238,7 @@ constexpr std::optional<error> update(plan& p, const camera& view)
     for (pass& each : p.passes) {
         switch (each.type) {
         case pass_type::linearize: {
-            linearize_constants c = folded->decode;
-            if (f.depth != depth_source::hardware) {
-                c = {};
-                c.scale = f.depth == depth_source::position ? -1.0F : 1.0F;
-                c.background = background;
-            }
-            detail::set_constants(each, c);
+            detail::set_constants(each, detail::make_linearize_constants(f, *folded));
             break;
         }
         case pass_type::occlusion: {

@@ -8,11 +8,9 @@
 
 #include <array>
 #include <bit>
-#include <cassert>
 #include <cstddef>
 #include <limits>
 #include <optional>
-#include <tuple>
 
 namespace ao {
 
@@ -62,18 +60,6 @@ struct temporal_plan {
     bool linearize = false;                // else the host's depth picture is eye depth
 };
 
-// The constants of a step as the struct that its body takes. Precondition: Constants is the one of the step's type.
-template <class Constants>
-constexpr Constants constants_of(const temporal_step& step)
-{
-    assert(step.constants_size == sizeof(Constants));
-    std::array<std::byte, sizeof(Constants)> bytes{};
-    for (std::size_t i = 0; i < bytes.size(); ++i) {
-        bytes[i] = step.constants[i];
-    }
-    return std::bit_cast<Constants>(bytes);
-}
-
 // Bytes of one of the two history buffers.
 constexpr std::size_t history_bytes(const temporal_plan& p)
 {
@@ -122,17 +108,6 @@ struct temporal_frame {
 };
 
 namespace detail {
-
-template <class Constants>
-constexpr void set_constants(temporal_step& p, const Constants& constants)
-{
-    static_assert(sizeof(Constants) <= std::tuple_size_v<decltype(p.constants)>);
-    const auto bytes = std::bit_cast<std::array<std::byte, sizeof(Constants)>>(constants);
-    for (std::size_t i = 0; i < bytes.size(); ++i) {
-        p.constants[i] = bytes[i];
-    }
-    p.constants_size = bytes.size();
-}
 
 constexpr bool is_rotation(const matrix3& m)
 {
@@ -343,17 +318,10 @@ constexpr result<temporal_frame> next_frame(temporal_plan& p, temporal_state& st
     for (std::size_t i = 0; i < p.steps.size(); ++i) {
         temporal_step& step = p.steps[i];
         switch (step.type) {
-        case temporal_pass_type::linearize: {
-            linearize_constants c = folded.decode;
-            if (p.facts.frame.depth != depth_source::hardware) {
-                c = {};
-                c.scale = p.facts.frame.depth == depth_source::position ? -1.0F : 1.0F;
-                c.background = folded.decode.background;
-            }
-            detail::set_constants(step, c);
+        case temporal_pass_type::linearize:
+            detail::set_constants(step, detail::make_linearize_constants(p.facts.frame, folded));
             frame.steps.push_back(i);
             break;
-        }
         case temporal_pass_type::accumulate:
             if (step.options.reproject != still) {
                 detail::set_constants(step, detail::make_constants(p, view, before, folded, folded_before, believe));

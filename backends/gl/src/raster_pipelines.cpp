@@ -10,28 +10,9 @@ namespace ao::gl {
 
 namespace {
 
-// By constant id, as in shaders/geometry.glsl.
-using geometry_constants = std::array<GLuint, 13>;
-constexpr geometry_constants constant_ids{ 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12 };
+constexpr geometry_options constant_ids{ 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12 };
 
-geometry_constants constants_of(const draw_variant& v, const gbuffer_facts& f, sampling how)
-{
-    return { v.alpha_map,
-             v.normal_map,
-             v.uvs,
-             v.frame,
-             v.deforming,
-             f.position,
-             f.normal,
-             f.motion,
-             f.ids,
-             f.surface,
-             f.frame,
-             static_cast<GLuint>(f.normals),
-             reads_maps(v) && how == sampling::hardware };
-}
-
-result<object> link_geometry(const functions& gl, shader_source chosen, const geometry_constants& values)
+result<object> link_geometry(const functions& gl, shader_source chosen, const geometry_options& values)
 {
     const source vertex{ shaders::geometry_vert, shaders::geometry_vert_text, constant_ids, "geometry, vertices" };
     const source fragment{ shaders::geometry_frag, shaders::geometry_frag_text, constant_ids, "geometry, fragments" };
@@ -76,9 +57,9 @@ object make_vertex_array(const functions& gl, const draw_variant& v, const gbuff
 std::optional<error> make_pipelines(const functions& gl, const raster_options& chosen, const draw_plan& p,
                                     raster_model_state& into)
 {
-    std::vector<geometry_constants> made;
+    std::vector<geometry_options> made;
     for (const draw_variant& v : p.variants) {
-        const geometry_constants values = constants_of(v, p.facts, chosen.sampling);
+        const geometry_options values = make_geometry_options(v, p.facts, chosen.sampling == sampling::hardware);
         const auto same = std::find(made.begin(), made.end(), values);
         raster_pipeline pipeline;
         pipeline.variant = v;

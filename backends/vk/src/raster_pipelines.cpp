@@ -10,26 +10,6 @@ namespace ao::vk {
 
 namespace {
 
-// What tells shaders apart. By constant id, as in shaders/geometry.glsl, then whether the device's sampler reads the maps.
-using needs = std::array<std::uint32_t, 13>;
-
-needs needs_of(const draw_variant& v, const gbuffer_facts& f, sampling how)
-{
-    return { v.alpha_map,
-             v.normal_map,
-             v.uvs,
-             v.frame,
-             v.deforming,
-             f.position,
-             f.normal,
-             f.motion,
-             f.ids,
-             f.surface,
-             f.frame,
-             static_cast<std::uint32_t>(f.normals),
-             reads_maps(v) && how == sampling::hardware };
-}
-
 struct fixed_state {
     bool cull_back;
     bool clockwise;
@@ -65,7 +45,7 @@ public:
         return maker;
     }
 
-    result<owned<VkPipeline>> make(const needs& n, const fixed_state& fixed) const
+    result<owned<VkPipeline>> make(const geometry_options& n, const fixed_state& fixed) const
     {
         std::array<specialisation_value, 12> values{};
         for (std::uint32_t i = 0; i < values.size(); ++i) {
@@ -209,14 +189,14 @@ std::optional<error> make_pipelines(const device& d, sampling how, const draw_pl
         return maker.error();
     }
     struct family {
-        needs of;
+        geometry_options of;
         bool cull_back;
         std::size_t first;
     };
     const bool dynamic = d.host.enabled.extended_dynamic_state;
     std::vector<family> made;
     for (const draw_variant& v : p.variants) {
-        const needs n = needs_of(v, p.facts, how);
+        const geometry_options n = make_geometry_options(v, p.facts, how == sampling::hardware);
         const bool another = std::none_of(made.begin(), made.end(), [&](const family& f) { return f.of == n; });
         into.programs += another ? 1 : 0;
         const bool cull = !dynamic && v.cull_back;
