@@ -57,14 +57,26 @@ auto interpolate(const std::vector<Vector>& all, const glm::uvec3& t, const glm:
     return wide(all[t.x]) * (1.0 - w.x - w.y) + wide(all[t.y]) * w.x + wide(all[t.z]) * w.y;
 }
 
-struct shaded_texel {
+struct place_on_map {
+    glm::dvec2 uv;
+    double footprint; // 0 where it is not finite
+};
+
+place_on_map place_of(const tools::scene& s, const glm::uvec3& t, const triangle_view& seen, int x, int y)
+{
+    const glm::dvec2 uv = interpolate(s.uvs, t, seen.weights(x, y));
+    const double footprint = real::ao_footprint(interpolate(s.uvs, t, seen.weights(x + 1, y)) - uv,
+                                                interpolate(s.uvs, t, seen.weights(x, y + 1)) - uv);
+    return { uv, std::isfinite(footprint) ? footprint : 0.0 };
+}
+
+struct surface_texel {
     glm::vec4 surface{ 0.0f };
-    glm::vec3 normal{ 0.0f };
     glm::vec4 frame{ 0.0f };
 };
 
-shaded_texel look(const tools::scene& s, const ao::scene& drawn, const ao::material_table& materials, const ao::texel_heap& heap,
-                  const tools::gbuffer& g, std::size_t i, const triangle_view& seen, const glm::dmat3& to_view)
+surface_texel look(const tools::scene& s, const ao::scene& drawn, const ao::material_table& materials, const tools::gbuffer& g,
+                   std::size_t i, const triangle_view& seen, const glm::dmat3& to_view)
 {
     const int x = static_cast<int>(i % static_cast<std::size_t>(g.width));
     const int y = static_cast<int>(i / static_cast<std::size_t>(g.width));
@@ -75,40 +87,26 @@ shaded_texel look(const tools::scene& s, const ao::scene& drawn, const ao::mater
     const ao::mesh& mesh = drawn.meshes[static_cast<std::size_t>(object.mesh)];
     const ao::material_needs& needs = materials[object.material];
 
-    shaded_texel out;
-    out.normal = g.normal[i];
+    surface_texel out;
     out.surface.w = static_cast<float>(side);
     if (mesh.uvs.empty())
         return out;
-    const glm::dvec2 uv = interpolate(s.uvs, t, here);
-    const double footprint = real::ao_footprint(interpolate(s.uvs, t, seen.weights(x + 1, y)) - uv,
-                                                interpolate(s.uvs, t, seen.weights(x, y + 1)) - uv);
-    out.surface = { uv, std::isfinite(footprint) ? footprint : 0.0, side };
-    if (mesh.tangents.empty() || !(needs.normal_map || needs.frame))
+    const place_on_map place = place_of(s, t, seen, x, y);
+    out.surface = { place.uv, place.footprint, side };
+    if (mesh.tangents.empty() || !needs.frame)
         return out;
     const glm::dvec4 tangent = interpolate(s.tangents, t, here);
     const glm::dvec3 n = to_view * interpolate(s.normals, t, here);
     const glm::dvec3 along = to_view * glm::dvec3(tangent);
     const double handedness = tangent.w < 0.0 ? -1.0 : 1.0;
-    if (needs.frame)
-        out.frame = ao::math<float>::ao_packed_frame(glm::normalize(n), along, static_cast<float>(handedness));
-    if (needs.normal_map) {
-        const ao::standard_material& m = drawn.materials[static_cast<std::size_t>(needs.geometry)];
-        const glm::dvec2 repeat(m.repeat);
-        const glm::dvec4 texel =
-            ao::sample<double>(heap, m.normal_map, uv * repeat,
-                               static_cast<double>(out.surface.z) * std::max(repeat.x * repeat.x, repeat.y * repeat.y));
-        out.normal = real::ao_facing_normal(
-            real::ao_mapped_normal(n, along, handedness, glm::dvec3(texel), m.normal_green_down ? -1.0 : 1.0), side);
-    }
+    out.frame = ao::math<float>::ao_packed_frame(glm::normalize(n), along, static_cast<float>(handedness));
     return out;
 }
 
 } // namespace
 
-picture_set pictures_of_rays(const tools::scene& s, const ao::scene& drawn, const ao::texel_heap& heap, const tools::gbuffer& g,
-                             const tools::camera& c, const tools::frustum& seen, const ao::gbuffer_facts& f,
-                             const ao::camera_projection& projection)
+picture_set pictures_of_rays(const tools::scene& s, const ao::scene& drawn, const tools::gbuffer& g, const tools::camera& c,
+                             const tools::frustum& seen, const ao::gbuffer_facts& f, const ao::camera_projection& projection)
 {
     picture_set p;
     p[scene_picture::depth] = pack_depth(g.depth, g.width, g.height, depth_source::hardware, f.depth_format, projection);
@@ -125,23 +123,52 @@ picture_set pictures_of_rays(const tools::scene& s, const ao::scene& drawn, cons
 
     const ao::material_table materials(drawn);
     const glm::dmat3 to_view = glm::transpose(view_axes(c));
-    std::vector<glm::vec3> normals(g.size());
     for (std::size_t i = 0; i < g.size(); ++i) {
         if (g.hit[i] == 0)
             continue;
         const triangle_view triangle(s, s.triangles[g.triangle[i]], c, seen, { g.width, g.height });
-        const shaded_texel texel = look(s, drawn, materials, heap, g, i, triangle, to_view);
+        const surface_texel texel = look(s, drawn, materials, g, i, triangle, to_view);
         const auto material = static_cast<std::uint32_t>(drawn.objects[g.object[i]].material + 1);
         ids.set_texel(i, glm::uvec2(g.object[i] + 1, material));
-        normals[i] = texel.normal;
         if (f.surface)
             surface.set_texel(i, texel.surface);
         if (f.frame)
             frame.set_texel(i, texel.frame);
     }
     if (f.normal)
-        p[scene_picture::normal] = pack_normals(normals, g.width, g.height, f.normals, f.normal_format);
+        p[scene_picture::normal] = pack_normals(g.normal, g.width, g.height, f.normals, f.normal_format);
     return p;
+}
+
+void apply_normal_maps(tools::gbuffer& g, const tools::scene& s, const ao::scene& drawn, const ao::texel_heap& heap,
+                       const tools::camera& c, const tools::frustum& seen)
+{
+    const ao::material_table materials(drawn);
+    const glm::dmat3 to_view = glm::transpose(view_axes(c));
+    for (std::size_t i = 0; i < g.size(); ++i) {
+        if (g.hit[i] == 0)
+            continue;
+        const ao::object& object = drawn.objects[g.object[i]];
+        const ao::mesh& mesh = drawn.meshes[static_cast<std::size_t>(object.mesh)];
+        const ao::material_needs& needs = materials[object.material];
+        if (!needs.normal_map || mesh.uvs.empty() || mesh.tangents.empty())
+            continue;
+        const glm::uvec3 t = s.triangles[g.triangle[i]];
+        const triangle_view triangle(s, t, c, seen, { g.width, g.height });
+        const int x = static_cast<int>(i % static_cast<std::size_t>(g.width));
+        const int y = static_cast<int>(i / static_cast<std::size_t>(g.width));
+        const glm::dvec2 here = triangle.weights(x, y);
+        const glm::dvec4 tangent = interpolate(s.tangents, t, here);
+        const ao::standard_material& m = drawn.materials[static_cast<std::size_t>(needs.geometry)];
+        const glm::dvec2 repeat(m.repeat);
+        const place_on_map place = place_of(s, t, triangle, x, y);
+        const glm::dvec4 texel = ao::sample<double>(heap, m.normal_map, place.uv * repeat,
+                                                    place.footprint * std::max(repeat.x * repeat.x, repeat.y * repeat.y));
+        const glm::dvec3 mapped =
+            real::ao_mapped_normal(to_view * interpolate(s.normals, t, here), to_view * glm::dvec3(tangent),
+                                   tangent.w < 0.0 ? -1.0 : 1.0, glm::dvec3(texel), m.normal_green_down ? -1.0 : 1.0);
+        g.normal[i] = real::ao_facing_normal(mapped, triangle.front(x, y) ? 1.0 : -1.0);
+    }
 }
 
 } // namespace ao::tools

@@ -78,7 +78,7 @@ run_inputs make_inputs(const render_options& o, const scene_input& input, const 
     if (o.shade)
         in.shading = plan_shading(o, in.scene, seen.shading);
     in.targets = targets_of(o, in.scene, in.shading ? &*in.shading : nullptr);
-    if (o.shade || o.rays) {
+    if (o.shade || o.rays || o.reference > 0) {
         auto heap = make_texel_heap(in.scene.textures);
         if (!heap)
             throw error(std::string(heap.error().reason()));
@@ -91,7 +91,7 @@ run_inputs make_inputs(const render_options& o, const scene_input& input, const 
 void use_rays(run_inputs& in, const scene_input& input, const render_result& r)
 {
     const tools::gbuffer& g = *r.rays;
-    in.pictures = pictures_of_rays(input.model, in.scene, in.heap, g, r.camera, r.frustum, in.targets, in.view.effect.projection);
+    in.pictures = pictures_of_rays(input.model, in.scene, g, r.camera, r.frustum, in.targets, in.view.effect.projection);
     if (in.facts.depth == depth_source::linear)
         in.linear_depth =
             pack_depth(g.depth, g.width, g.height, in.facts.depth, in.facts.depth_format, in.view.effect.projection);
@@ -148,6 +148,8 @@ void render(const render_options& o)
     if (o.rays || o.reference > 0) {
         tree.emplace(input.model);
         result.rays = trace_gbuffer(input.model, *tree, result.camera, result.frustum, o.size.width, o.size.height);
+        // So that the truth is of the normals that the effect sees.
+        apply_normal_maps(*result.rays, input.model, in.scene, in.heap, result.camera, result.frustum);
         stop_if_interrupted();
     }
     if (o.rays)
