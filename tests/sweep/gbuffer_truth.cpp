@@ -13,16 +13,14 @@
 // clip to a guard band (ours to 16384 pixels around the picture). They are added to h.
 //
 // Corners in view space are three products and sums in float: off by at most 8 e (|world position| + |translation|), |.| being
-// the sum of the components. A corner that clipping makes, at the near plane and
-// at the sides, is rounded as much again each time: four times as much. What is stored is a convex
-// combination of such corners, and the pixel's ray meets the moved plane at most error / cos(angle of incidence) away.
+// the sum of the components. A corner that clipping makes, at the near plane and at the sides, is rounded as much again each
+// time: four times as much. What is stored is a convex combination of such corners, and the pixel's ray meets the moved plane at
+// most error / cos(angle of incidence) away.
 //
-// Interpolation. Drivers set up planes u(x, y) = u0 + x du/dx + y du/dy for attributes u = a / w and 1 / w, with
-// du/dx = (du01 dy20 - du20 dy01) / area. Each operation rounds by e:
-// with X = |x| + greatest |x_i|, Y alike, and
+// Interpolation. Drivers set up planes u(x, y) = u0 + x du/dx + y du/dy for attributes u = a / w and 1 / w of what is left of the
+// triangle in the picture or in a guard band of twice its size, cut into a fan, with
+// du/dx = (du01 dy20 - du20 dy01) / area. Each operation rounds by e: with X = |x| + greatest |x_i|, Y alike, and
 // k = (|dx01 dy20| + |dx20 dy01|) / |area|, the condition of the area, the result is off by at most
-// for the triangle that the driver sets up: what is left of ours in the picture or in a guard band of twice its size, cut into a
-// fan.
 //   8 e (|u0| + ((|du01 dy20| + |du20 dy01|) X + (|du01 dx20| + |du20 dx01|) Y) (1 + k) / |area|),
 // and a = u / w is off by (error of u + |a| error of 1/w) / (1/w).
 //
