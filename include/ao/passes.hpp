@@ -60,8 +60,8 @@ struct occlusion_pass {
     }
 
 #include "ao/shared/normal_pass.h"
-#include "ao/shared/occlusion_tap.h"
 #include "ao/shared/occlusion_pass.h"
+#include "ao/shared/occlusion_tap.h"
 };
 
 // Resources: real visibility(ivec2), vec2 row_sum(ivec2); each of the two passes needs one of them.
