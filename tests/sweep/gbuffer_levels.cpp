@@ -1,48 +1,12 @@
-// Every view of the levels and of the bundled scene at full size: the backends' G-buffers show the same surfaces but at edges,
-// within the bounds of interpolation, and are shaded alike in every bit.
-#include "sweep/gbuffer_agreement.hpp"
-#include "sweep/gbuffer_cameras.hpp"
-#include "sweep/level_views.hpp"
-
-#include "scene/load.hpp"
-
-#include <catch2/catch.hpp>
-
-using namespace gbuffer_test;
-
-namespace {
-
-constexpr int width = 1280;
-constexpr int height = 720;
-
-std::vector<ao::host::scene_runner_ptr> runners()
-{
-    auto made = ao::host::make_scene_runners("all");
-    INFO((made ? std::string() : std::string(made.error().reason())));
-    REQUIRE(made);
-    return std::move(*made);
-}
-
-} // namespace
+// Every view of the levels and of the bundled scene at full size.
+#include "sweep/gbuffer_views.hpp"
 
 TEST_CASE("the backends draw the levels alike, and shade alike what one of them drew")
 {
-    const auto all = runners();
-    print_header();
-    for (const level& l : levels()) {
-        const ao::tools::scene model = ao::tools::load_model(l.model.string());
-        const drawn_scene s(model);
-        for (const level_view& view : l.views)
-            check_view(all, s, view_of(s, view.name, view.camera, width, height));
-    }
+    gbuffer_test::check_levels(1280, 720, 100);
 }
 
 TEST_CASE("the backends draw the bundled scene alike, and shade alike what one of them drew")
 {
-    const auto all = runners();
-    const ao::tools::scene model = ao::tools::courtyard();
-    const drawn_scene s(model);
-    print_header();
-    for (const auto& [name, camera] : courtyard_cameras())
-        check_view(all, s, view_of(s, name, camera, width, height));
+    gbuffer_test::check_courtyard(1280, 720);
 }
