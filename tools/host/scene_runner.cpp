@@ -1,5 +1,7 @@
 #include "host/scene_runner.hpp"
 
+#include "host/make_each.hpp"
+
 #include <utility>
 
 namespace ao::host {
@@ -108,29 +110,7 @@ std::optional<ao::result<scene_runner_ptr>> make_one(std::string_view backend, [
 
 made make_scene_runners(std::string_view backend, const std::string& device)
 {
-    std::vector<scene_runner_ptr> runners;
-    bool known = backend == "all";
-    for (const std::string_view each : { "cpu", "gl", "vk" }) {
-        if (backend != "all" && backend != each) {
-            continue;
-        }
-        known = true;
-        auto next = make_one(each, device);
-        if (!next && backend == "all") {
-            continue;
-        }
-        if (!next) {
-            return error(errc::invalid_settings, "this program was built without the backend " + std::string(backend));
-        }
-        if (!*next) {
-            return next->error();
-        }
-        runners.push_back(std::move(**next));
-    }
-    if (!known) {
-        return error(errc::invalid_settings, "unknown backend \"" + std::string(backend) + "\": cpu, gl, vk or all");
-    }
-    return runners;
+    return make_each<scene_runner_ptr>(backend, [&](std::string_view each) { return make_one(each, device); });
 }
 
 } // namespace ao::host
