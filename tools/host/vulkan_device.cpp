@@ -2,6 +2,10 @@
 
 #include "host/vulkan_messages.hpp"
 
+#ifdef __SANITIZE_ADDRESS__
+#include <dlfcn.h>
+#endif
+
 #include <algorithm>
 #include <cctype>
 #include <cstring>
@@ -32,6 +36,16 @@ bool has_validation_layer()
     vkEnumerateInstanceLayerProperties(&count, layers.data());
     return std::any_of(layers.begin(), layers.end(),
                        [](const VkLayerProperties& layer) { return std::strcmp(layer.layerName, validation_layer) == 0; });
+}
+
+// What a driver leaks is told from what we leak by the driver's name, which it loses when the loader unloads it.
+void keep_driver_loaded([[maybe_unused]] VkDevice device)
+{
+#ifdef __SANITIZE_ADDRESS__
+    Dl_info driver{};
+    if (dladdr(reinterpret_cast<const void*>(vkGetDeviceProcAddr(device, "vkQueueSubmit")), &driver) != 0)
+        dlopen(driver.dli_fname, RTLD_NOW | RTLD_NOLOAD | RTLD_NODELETE);
+#endif
 }
 
 result<VkInstance> create_instance(vulkan_messages* messages)
@@ -236,6 +250,7 @@ result<std::unique_ptr<vulkan_device>> vulkan_device::create(const vulkan_option
     device_info.ppEnabledExtensionNames = drawing.names.data();
     if (const VkResult code = vkCreateDevice(self->physical, &device_info, nullptr, &self->device); code != VK_SUCCESS)
         return vulkan_failure("vkCreateDevice", code);
+    keep_driver_loaded(self->device);
     vkGetDeviceQueue(self->device, self->queue_family, 0, &self->queue);
 
     VkCommandPoolCreateInfo pool_info{};
