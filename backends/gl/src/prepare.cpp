@@ -17,12 +17,7 @@ void make_tables(const functions& gl, program_state& state, const settings& s)
     const auto taps = make_kernel(s.kernel, s.taps, s.seed);
     state.taps = make_object(gl, object_type::buffer, gl.CreateBuffers);
     gl.NamedBufferStorage(state.taps.name(), sizeof taps, taps.data(), 0);
-
-    const auto tile = make_rotation_tile(s.seed);
-    object& rotations = state.images[index_of(image_id::rotation)];
-    rotations = make_texture(gl, GL_RG32F, tile_size, tile_size);
-    const plain_unpack_state plain(gl);
-    gl.TextureSubImage2D(rotations.name(), 0, 0, 0, tile_size, tile_size, GL_RG, GL_FLOAT, tile.data());
+    state.images[index_of(image_id::rotation)] = make_rotations(gl, s.seed);
 }
 
 } // namespace
@@ -44,6 +39,15 @@ object make_sampler(const functions& gl)
     gl.SamplerParameteri(sampler.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     gl.SamplerParameteri(sampler.name(), GL_TEXTURE_COMPARE_MODE, GL_NONE);
     return sampler;
+}
+
+object make_rotations(const functions& gl, std::uint32_t seed)
+{
+    const auto tile = make_rotation_tile(seed);
+    object rotations = make_texture(gl, GL_RG32F, tile_size, tile_size);
+    const plain_unpack_state plain(gl);
+    gl.TextureSubImage2D(rotations.name(), 0, 0, 0, tile_size, tile_size, GL_RG, GL_FLOAT, tile.data());
+    return rotations;
 }
 
 result<object> make_framebuffer(const functions& gl, GLuint texture)

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace ao::gl {
@@ -81,6 +82,9 @@ object make_texture(const functions& gl, GLenum format, int width, int height);
 // Fetches need no filter, but a texture without the levels of its own filter would be incomplete, and one with a
 // comparison undefined.
 object make_sampler(const functions& gl);
+
+// The tile of rotations that a seed gives, GL_RG32F.
+object make_rotations(const functions& gl, std::uint32_t seed);
 
 // A framebuffer with level 0 of a texture as its only color.
 result<object> make_framebuffer(const functions& gl, GLuint texture);

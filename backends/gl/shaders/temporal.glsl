@@ -1,0 +1,22 @@
+// Group size, resources and options that the temporal passes have in common. Constant ids: the order of ao::temporal_options.
+#include "ao/shared/prelude.glsl"
+#include "ao/shared/functions.h"
+
+layout(local_size_x_id = 13, local_size_y_id = 14) in;
+layout(constant_id = 2) const int ao_history_format = 0;
+layout(constant_id = 9) const bool ao_parallel = false;
+
+layout(binding = 0) uniform sampler2D ao_depth;
+layout(std430, binding = 0) readonly buffer ao_history_block { uint ao_history_words_read[]; };
+
+real ao_load_depth(ivec2 pixel)
+{
+    return texelFetch(ao_depth, pixel, 0).x;
+}
+
+uint ao_load_history(uint word)
+{
+    return ao_history_words_read[word];
+}
+
+#include "ao/shared/history_load.h"

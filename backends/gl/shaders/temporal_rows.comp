@@ -1,0 +1,11 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "temporal_filter.glsl"
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_GlobalInvocationID);
+    if (ao_inside(pixel)) {
+        imageStore(ao_picture, pixel, vec4(ao_temporal_rows_pass(ao_constants, pixel)));
+    }
+}
