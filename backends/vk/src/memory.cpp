@@ -43,7 +43,7 @@ result<owned<VkDeviceMemory>> allocate(const device& d, VkDeviceSize size, std::
 
 } // namespace
 
-result<buffer> make_buffer(const device& d, VkDeviceSize size, VkBufferUsageFlags usage)
+result<buffer> make_buffer(const device& d, VkDeviceSize size, VkBufferUsageFlags usage, VkMemoryPropertyFlags needed)
 {
     buffer made;
     made.size = size;
@@ -54,8 +54,7 @@ result<buffer> make_buffer(const device& d, VkDeviceSize size, VkBufferUsageFlag
     AO_VK_CREATE(made.handle, d, Buffer, info);
     VkMemoryRequirements needs{};
     d.call.GetBufferMemoryRequirements(d.host.device, made.handle.get(), &needs);
-    auto memory =
-        allocate(d, needs.size, needs.memoryTypeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
+    auto memory = allocate(d, needs.size, needs.memoryTypeBits, needed);
     if (!memory) {
         return memory.error();
     }

@@ -8,15 +8,17 @@
 
 namespace ao::vk {
 
-// A buffer that the host can write to.
 struct buffer {
     owned<VkDeviceMemory> memory; // outlives the buffer
     owned<VkBuffer> handle;
     VkDeviceSize size = 0;
 };
 
-result<buffer> make_buffer(const device& d, VkDeviceSize size, VkBufferUsageFlags usage);
-// Preconditions: inside the buffer; no command that uses these bytes executes.
+inline constexpr VkMemoryPropertyFlags host_memory = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+// In the device's own memory where there is such that has the `needed` properties.
+result<buffer> make_buffer(const device& d, VkDeviceSize size, VkBufferUsageFlags usage,
+                           VkMemoryPropertyFlags needed = host_memory);
+// Preconditions: in host_memory; inside the buffer; no command that uses these bytes executes.
 std::optional<error> write(const device& d, const buffer& to, VkDeviceSize offset, std::span<const std::byte> bytes);
 std::optional<error> read(const device& d, const buffer& from, std::span<std::byte> bytes);
 // A storage buffer with this content. errc::out_of_memory: `what` is more than the device can bind.

@@ -82,6 +82,14 @@ std::optional<error> make_layouts(const device& d, prepared& made)
 
 } // namespace
 
+linearize_constants copying_constants()
+{
+    linearize_constants identity{};
+    identity.scale = 1;
+    identity.background = std::numeric_limits<float>::infinity();
+    return identity;
+}
+
 plan executed_plan(const device& d, const plan& p)
 {
     if (!is_software(d) || p.facts.depth != depth_source::linear) {
@@ -94,10 +102,7 @@ plan executed_plan(const device& d, const plan& p)
     copy.options.affine = true;
     copy.inputs[0] = image_id::depth;
     copy.output = image_id::linear_depth;
-    linearize_constants identity{};
-    identity.scale = 1;
-    identity.background = std::numeric_limits<float>::infinity();
-    ao::detail::set_constants(copy, identity);
+    ao::detail::set_constants(copy, copying_constants());
     executed.passes.push_back(copy);
     executed.transients.push_back({ image_id::linear_depth, pixel_format::r32f });
     for (pass each : p.passes) {
