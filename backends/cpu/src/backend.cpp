@@ -1,65 +1,31 @@
 #include "ao/cpu/backend.hpp"
 
-#include "kernels.hpp"
-#include "threads.hpp"
+#include "machine.hpp"
 #include "views.hpp"
-#include "width.hpp"
 
 #include "ao/kernel.hpp"
 
 #include <cassert>
 #include <cstring>
-#include <new>
-#include <string>
 #include <utility>
 
 namespace ao::cpu {
 
 namespace detail {
 
-void free_aligned::operator()(float* p) const
+void free_aligned::operator()(void* p) const
 {
     ::operator delete[](p, std::align_val_t{ 64 });
 }
 
-struct machine {
-    width lanes;
-    const kernel_table& kernels;
-    std::unique_ptr<threads> workers;
-
-    void run(kernel k, const pass_arguments& a)
-    {
-        workers->over_tiles(a.width, a.height, [&](const tile& t) { k(a, t); });
+void fill_rotation(float* to, std::uint32_t seed)
+{
+    const auto rotation = make_rotation_tile(seed);
+    for (std::size_t i = 0; i < rotation.size(); ++i) {
+        to[i] = rotation[i].x;
+        to[rotation.size() + i] = rotation[i].y;
     }
-};
-
-namespace {
-
-aligned_floats allocate(std::size_t count)
-{
-    return aligned_floats(static_cast<float*>(::operator new[](count * sizeof(float), std::align_val_t{ 64 }, std::nothrow)));
 }
-
-// Floats between rows: a multiple of a cache line, and no multiple of 1 KiB, at which a column's texels would share few sets
-// of the first-level cache.
-int padded_pitch(int pixels)
-{
-    const int lines = (pixels + 15) / 16;
-    return 16 * (lines % 16 == 0 ? lines + 1 : lines);
-}
-
-plane plane_of(const image_view& v)
-{
-    return { static_cast<std::byte*>(v.data), v.row_bytes, bytes_per_pixel(v.format) / 4, v.format };
-}
-
-plane plane_of(const aligned_floats& floats, int pitch, std::size_t offset = 0)
-{
-    return { reinterpret_cast<std::byte*>(floats.get() + offset), static_cast<std::size_t>(pitch) * sizeof(float), 1,
-             pixel_format::r32f };
-}
-
-} // namespace
 
 } // namespace detail
 
@@ -80,16 +46,11 @@ int backend::threads() const
 
 result<backend> backend::create(const options& o)
 {
-    const width lanes = o.lanes == width::automatic ? detail::widest() : o.lanes;
-    if (!is_available(lanes)) {
-        return error(errc::device, std::string("this machine or build does not have ") + std::string(name_of(lanes)));
+    auto made = detail::make_machine(o);
+    if (!made) {
+        return made.error();
     }
-    auto workers = detail::make_threads(o);
-    if (!workers) {
-        return workers.error();
-    }
-    return backend(
-        std::unique_ptr<detail::machine>(new detail::machine{ lanes, detail::kernels_of(lanes), std::move(*workers) }));
+    return backend(std::move(*made));
 }
 
 result<program> backend::prepare(const plan& p)
@@ -121,11 +82,7 @@ result<program> backend::prepare(const plan& p)
             made.kernel_[4 * i + static_cast<std::size_t>(j)] = kernel[i][j];
         }
     }
-    const auto rotation = make_rotation_tile(p.settings.seed);
-    for (std::size_t i = 0; i < texels; ++i) {
-        made.rotation_[i] = rotation[i].x;
-        made.rotation_[texels + i] = rotation[i].y;
-    }
+    detail::fill_rotation(made.rotation_.get(), p.settings.seed);
     return made;
 }
 

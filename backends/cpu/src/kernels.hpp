@@ -2,9 +2,10 @@
 // machine may lack stays behind them.
 #pragma once
 
-#include "ao/plan.hpp"
+#include "ao/temporal.hpp"
 
 #include <cstddef>
+#include <cstdint>
 
 namespace ao::cpu::detail {
 
@@ -37,13 +38,41 @@ struct tile {
     int bottom = 0;
 };
 
+struct temporal_arguments {
+    temporal_options options;
+    float constants[sizeof(temporal_step::constants) / sizeof(float)] = {};
+    int width = 0; // pixels of the picture
+    int height = 0;
+    plane depth; // eye depth
+    plane normal;
+    plane motion;
+    plane rows; // of filter_rows, for filter_columns
+    plane target;
+    const std::uint32_t* read = nullptr; // histories (temporal_resources.hpp)
+    std::uint32_t* write = nullptr;
+    std::size_t history_plane = 0; // words between those of a pixel
+    int history_words = 0;         // of a pixel
+    const float* rotation = nullptr;
+    const float* taps = nullptr; // all x, then all y, then all z
+    std::size_t tap_plane = 0;   // floats of each
+};
+
 using kernel = void (*)(const pass_arguments&, const tile&);
+using temporal_kernel = void (*)(const temporal_arguments&, const tile&);
+
+struct temporal_kernel_table {
+    temporal_kernel accumulate[3][2]; // [0: still, 1: reproject, 2: reproject, cubic][fox_compton]
+    temporal_kernel filter_rows;
+    temporal_kernel filter_columns;
+    temporal_kernel resolve;
+};
 
 struct kernel_table {
     kernel linearize;
     kernel occlusion[2][2]; // [parallel][limit_thickness]
     kernel filter_rows;
     kernel filter_columns;
+    const temporal_kernel_table& temporal;
 };
 
 const kernel_table& scalar_kernels();

@@ -1,5 +1,5 @@
 // Sixteen lanes: AVX-512 F, DQ, BW and VL, which this unit alone is compiled for. Verdicts live in mask registers.
-#include "pass_kernels.hpp"
+#include "temporal_kernels.hpp"
 
 #include <immintrin.h>
 
@@ -13,6 +13,7 @@ template <>
 struct ao::lane_instructions<16, avx512> {
     using floats = ao::detail::native_vector<float, 16>::type;
     using words = ao::detail::native_vector<std::int32_t, 16>::type;
+    using unsigned_words = ao::detail::native_vector<std::uint32_t, 16>::type;
     using mask_bits = __mmask16;
 
     static mask_bits all(bool b) { return b ? 0xffff : 0; }
@@ -26,6 +27,9 @@ struct ao::lane_instructions<16, avx512> {
     static mask_bits less(words a, words b) { return _mm512_cmplt_epi32_mask(bits(a), bits(b)); }
     static mask_bits less_equal(words a, words b) { return _mm512_cmple_epi32_mask(bits(a), bits(b)); }
     static mask_bits equal(words a, words b) { return _mm512_cmpeq_epi32_mask(bits(a), bits(b)); }
+    static mask_bits less(unsigned_words a, unsigned_words b) { return _mm512_cmplt_epu32_mask(bits(a), bits(b)); }
+    static mask_bits less_equal(unsigned_words a, unsigned_words b) { return _mm512_cmple_epu32_mask(bits(a), bits(b)); }
+    static mask_bits equal(unsigned_words a, unsigned_words b) { return _mm512_cmpeq_epi32_mask(bits(a), bits(b)); }
     static floats select(floats a, floats b, mask_bits m) { return _mm512_mask_blend_ps(m, a, b); }
     static words select(words a, words b, mask_bits m)
     {
@@ -34,7 +38,11 @@ struct ao::lane_instructions<16, avx512> {
     static floats sqrt(floats x) { return _mm512_maskz_sqrt_ps(0xffff, x); }
 
 private:
-    static __m512i bits(words x) { return reinterpret_cast<__m512i>(x); }
+    template <class Vector>
+    static __m512i bits(Vector x)
+    {
+        return reinterpret_cast<__m512i>(x);
+    }
 };
 
 template <>
@@ -62,7 +70,7 @@ namespace ao::cpu::detail {
 
 const kernel_table& lanes16_kernels()
 {
-    return pass_kernels<lanes<float, 16, avx512>>::table;
+    return kernels_over<lanes<float, 16, avx512>>;
 }
 
 } // namespace ao::cpu::detail

@@ -1,5 +1,5 @@
 // Four lanes: SSE2 on x86-64, where every machine has it; elsewhere (NEON) what vector extensions become.
-#include "pass_kernels.hpp"
+#include "temporal_kernels.hpp"
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
@@ -54,7 +54,7 @@ namespace ao::cpu::detail {
 
 const kernel_table& lanes4_kernels()
 {
-    return pass_kernels<lanes<float, 4, sse2>>::table;
+    return kernels_over<lanes<float, 4, sse2>>;
 }
 
 } // namespace ao::cpu::detail

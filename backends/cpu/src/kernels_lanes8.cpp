@@ -1,5 +1,5 @@
 // Eight lanes: AVX2 and F16C, which this unit alone is compiled for.
-#include "pass_kernels.hpp"
+#include "temporal_kernels.hpp"
 
 #include <immintrin.h>
 
@@ -70,7 +70,7 @@ namespace ao::cpu::detail {
 
 const kernel_table& lanes8_kernels()
 {
-    return pass_kernels<lanes<float, 8, avx2>>::table;
+    return kernels_over<lanes<float, 8, avx2>>;
 }
 
 } // namespace ao::cpu::detail

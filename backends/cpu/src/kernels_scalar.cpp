@@ -1,10 +1,10 @@
-#include "pass_kernels.hpp"
+#include "temporal_kernels.hpp"
 
 namespace ao::cpu::detail {
 
 const kernel_table& scalar_kernels()
 {
-    return pass_kernels<float>::table;
+    return kernels_over<float>;
 }
 
 } // namespace ao::cpu::detail

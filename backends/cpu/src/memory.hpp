@@ -49,6 +49,8 @@ struct memory<float> {
     using integer = std::int32_t;
 
     static integer ascending(int first, int, int) { return first; }
+    static int first(integer x) { return x; }
+    static bool uniform(integer) { return true; }
     static integer load(const std::byte* data, integer index) { return gather(data, index); }
     static integer gather(const std::byte* data, integer index)
     {
@@ -81,6 +83,9 @@ struct memory<lanes<float, N, Tag>> {
         const words last = words{} + (count - 1);
         return integer((lane < last ? lane : last) * step + first);
     }
+    static int first(integer x) { return x[0]; }
+    // Whether all lanes are the same.
+    static bool uniform(integer x) { return instructions::equal(x.v, words{} + x[0]); }
     // As gather, and quick where the words lie side by side.
     static integer load(const std::byte* data, integer index)
     {

@@ -25,8 +25,8 @@ struct pass_kernels {
     using vec2 = typename math<Real>::vec2;
 
     // A shared constants struct: reals only.
-    template <class Constants>
-    static Constants constants(const pass_arguments& a)
+    template <class Constants, class Arguments>
+    static Constants constants(const Arguments& a)
     {
         constexpr int count = sizeof(Constants) / sizeof(Real);
         static_assert(sizeof(float) * count <= sizeof(a.constants));
@@ -132,12 +132,16 @@ struct pass_kernels {
         });
     }
 
-    static constexpr kernel_table table{
-        linearize,
-        { { occlusion<false, false>, occlusion<false, true> }, { occlusion<true, false>, occlusion<true, true> } },
-        filter_rows,
-        filter_columns,
-    };
+    static constexpr kernel_table table(const temporal_kernel_table& temporal)
+    {
+        return {
+            linearize,
+            { { occlusion<false, false>, occlusion<false, true> }, { occlusion<true, false>, occlusion<true, true> } },
+            filter_rows,
+            filter_columns,
+            temporal,
+        };
+    }
 };
 
 } // namespace ao::cpu::detail

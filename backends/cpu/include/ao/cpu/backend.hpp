@@ -55,7 +55,7 @@ struct options {
 namespace detail {
 
 struct free_aligned {
-    void operator()(float* p) const;
+    void operator()(void* p) const;
 };
 using aligned_floats = std::unique_ptr<float[], free_aligned>;
 

@@ -1,0 +1,95 @@
+// Answers to the callbacks of the temporal pass bodies.
+#pragma once
+
+#include "resources.hpp"
+
+#include "ao/temporal_passes.hpp"
+
+#include <cstdint>
+
+namespace ao::cpu::detail {
+
+// A history in memory: not words pixel after pixel as the bodies count them, but all first words, then all second ones, and so
+// on, so that the words of neighbours lie side by side.
+template <class Real>
+struct history_reader {
+    using memory = detail::memory<Real>;
+    using integer = typename memory::integer;
+
+    const std::byte* data = nullptr;
+    std::size_t plane_bytes = 0;
+    int word_bits = 0; // 2 to the power of it: words of a pixel
+
+    // Precondition: all lanes ask for the same word of their pixels.
+    template <class Uint>
+    Uint word(Uint index) const
+    {
+        const integer at = integer(index);
+        const int first = memory::first(at);
+        const auto word = static_cast<std::size_t>(first & ((1 << word_bits) - 1));
+        return Uint(memory::load(data + word * plane_bytes, memory::shift_right(at, word_bits)));
+    }
+};
+
+template <class Real>
+struct temporal_resources {
+    using memory = detail::memory<Real>;
+    using integer = typename math<Real>::integer;
+    using uint = typename math<Real>::uint;
+    using ivec2 = typename math<Real>::ivec2;
+    using vec2 = typename math<Real>::vec2;
+    using vec4 = typename math<Real>::vec4;
+    reader<Real> eye_depth;
+    reader<Real> normals;
+    reader<Real> motions;
+    reader<Real> rotation_x;
+    reader<Real> rotation_y;
+    history_reader<Real> last;
+    const std::byte* taps = nullptr; // all x, then all y, then all z
+    std::size_t tap_bytes = 0;       // of each
+
+    Real depth(ivec2 pixel) const { return eye_depth.gathered(pixel); }
+    vec4 normal(ivec2 pixel) const { return normals.normal(pixel); }
+    vec4 motion(ivec2 pixel) const
+    {
+        if (motions.format == pixel_format::rg32f) {
+            return vec4(motions.component(pixel, 0), motions.component(pixel, 1), Real(0), Real(0));
+        }
+        return motions.normal(pixel); // the other formats are those of normals
+    }
+    uint history(uint word) const { return last.word(word); }
+    vec2 rotation(ivec2 texel) const { return vec2(rotation_x.loaded(texel), rotation_y.loaded(texel)); }
+    vec4 tap(uint i) const
+    {
+        // Pixels with the same past, most of them, are at the same sample.
+        const integer index = integer(i);
+        if (memory::uniform(index)) {
+            const std::byte* at = taps + std::size_t{ 4 } * static_cast<std::uint32_t>(memory::first(index));
+            const auto each = [&](std::size_t component) {
+                float x = 0;
+                std::memcpy(&x, at + component * tap_bytes, 4);
+                return Real(x);
+            };
+            return vec4(each(0), each(1), each(2), Real(0));
+        }
+        const auto each = [&](std::size_t component) {
+            return memory::as_real(memory::gather(taps + component * tap_bytes, index));
+        };
+        return vec4(each(0), each(1), each(2), Real(0));
+    }
+};
+
+template <class Real>
+struct temporal_filter_resources {
+    using uint = typename math<Real>::uint;
+    using ivec2 = typename math<Real>::ivec2;
+    reader<Real> eye_depth;
+    reader<Real> rows;
+    history_reader<Real> now;
+
+    Real depth(ivec2 pixel) const { return eye_depth.loaded(pixel); }
+    uint history(uint word) const { return now.word(word); }
+    Real row(ivec2 pixel) const { return rows.loaded(pixel); }
+};
+
+} // namespace ao::cpu::detail
