@@ -25,7 +25,8 @@ struct gbuffer_facts {
     bool normal = true; // view space, unit, towards the eye on two-sided surfaces seen from behind; background 0
     normal_source normals = normal_source::vector; // as facts::normals; from_depth means none
     pixel_format normal_format = pixel_format::rgba16f;
-    bool motion = false;  // rg32f: where the point was in the last frame minus where it is, in pixels
+    bool motion = false; // where the point was in the last frame minus where it is, in pixels; background 0
+    pixel_format motion_format = pixel_format::rg32f; // or rgba32f: z = eye depth in the last frame, 0 behind the eye; w = 0
     bool ids = false;     // rg32ui: object + 1, object::material + 1 in two's complement; background 0 0
     bool surface = false; // rgba32f: uv, squared length of the longer screen derivative of uv, side (+1 front, -1 back)
     // rgba32f: what ao_packed_frame makes of the interpolated normal and tangent, for blends whose leaves have normal maps of
@@ -88,6 +89,9 @@ inline std::optional<error> validate(const gbuffer_facts& f)
     }
     if (f.position && f.position_format != rgba16f && f.position_format != rgba32f) {
         return fail(errc::unsupported_format, "positions must be rgba16f or rgba32f");
+    }
+    if (f.motion && f.motion_format != rg32f && f.motion_format != rgba32f) {
+        return fail(errc::unsupported_format, "motion must be rg32f or rgba32f");
     }
     const pixel_format n = f.normal_format;
     const bool fits = f.normals == normal_source::vector       ? n == rgba16f || n == rgba32f

@@ -34,7 +34,7 @@ inline ao::gbuffer_images<ao::cpu::image_view> make_pictures(const ao::gbuffer_f
     images.depth = target(true, f.depth_format, d.depth);
     images.position = target(f.position, f.position_format, d.position);
     images.normal = target(f.normal, f.normal_format, d.normal);
-    images.motion = target(f.motion, ao::pixel_format::rg32f, d.motion);
+    images.motion = target(f.motion, f.motion_format, d.motion);
     images.ids = target(f.ids, ao::pixel_format::rg32ui, d.ids);
     images.surface = target(f.surface, ao::pixel_format::rgba32f, d.surface);
     images.frame = target(f.frame, ao::pixel_format::rgba32f, d.frame);

@@ -37,7 +37,7 @@ drawn draw(ao::gl::rasterizer& gl, const ao::scene& s, const ao::gbuffer_facts& 
     images.depth = target(true, f.depth_format);
     images.position = target(f.position, f.position_format);
     images.normal = target(f.normal, f.normal_format);
-    images.motion = target(f.motion, pixel_format::rg32f);
+    images.motion = target(f.motion, f.motion_format);
     images.ids = target(f.ids, pixel_format::rg32ui);
     images.surface = target(f.surface, pixel_format::rgba32f);
     images.frame = target(f.frame, pixel_format::rgba32f);

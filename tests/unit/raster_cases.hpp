@@ -89,6 +89,13 @@ inline world plain_world()
     return w;
 }
 
+// In either format.
+inline glm::vec4 motion_of(const drawn& d, std::size_t i)
+{
+    return d.motion.format == pixel_format::rgba32f ? d.motion.texel<glm::vec4>(i)
+                                                    : glm::vec4(d.motion.texel<glm::vec2>(i), 0, 0);
+}
+
 struct expectation {
     std::size_t compared = 0;
     std::size_t background = 0;
@@ -121,7 +128,7 @@ inline expectation compare(const world& w, const ao::gbuffer_camera& camera, con
                 REQUIRE(ids.y == 0);
                 REQUIRE(d.position.texel<glm::vec4>(i) == glm::vec4(0));
                 REQUIRE(d.normal.texel<glm::vec4>(i) == glm::vec4(0));
-                REQUIRE(d.motion.texel<glm::vec2>(i) == glm::vec2(0));
+                REQUIRE(motion_of(d, i) == glm::vec4(0));
                 REQUIRE(d.surface.texel<glm::vec4>(i) == glm::vec4(0));
                 continue;
             }
@@ -134,7 +141,14 @@ inline expectation compare(const world& w, const ao::gbuffer_camera& camera, con
             REQUIRE(glm::length(dvec3(position) - p) < 1e-4 * glm::length(p));
             REQUIRE(position.w == 1);
             REQUIRE(glm::length(dvec3(d.normal.texel<glm::vec4>(i)) - rays.normal(at, pixel) * (at.front ? 1.0 : -1.0)) < 1e-4);
-            REQUIRE(glm::length(dvec2(d.motion.texel<glm::vec2>(i)) - rays.motion(at, pixel)) < 2e-3);
+            const glm::vec4 motion = motion_of(d, i);
+            const dvec3 moved = rays.motion(at, pixel);
+            REQUIRE(glm::length(dvec2(motion) - dvec2(moved)) < 2e-3);
+            if (d.motion.format == pixel_format::rgba32f) {
+                const double before = std::max(moved.z, 0.0);
+                REQUIRE(std::abs(static_cast<double>(motion.z) - before) < 1e-5 * before + 1e-5);
+                REQUIRE(motion.w == 0);
+            }
 
             const auto surface = d.surface.texel<glm::vec4>(i);
             REQUIRE(surface.w == (at.front ? 1.0F : -1.0F));
@@ -157,9 +171,42 @@ inline expectation compare(const world& w, const ao::gbuffer_camera& camera, con
     return e;
 }
 
+// Of points that were in front of the last frame's eye and behind it; what both formats hold is the same.
+inline void check_motion_depth(const draw_function& draw)
+{
+    world w = plain_world();
+    auto f = all_targets();
+    auto view = camera({});
+    view.previous_view[3][2] += 6;
+    const drawn two = draw(w.get(), f, view);
+    f.motion_format = pixel_format::rgba32f;
+    const drawn four = draw(w.get(), f, view);
+    const caster rays(w, view);
+    std::array<int, 2> sides{};
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const auto i = static_cast<std::size_t>(y * width + x);
+            INFO("pixel " << x << ", " << y);
+            REQUIRE(two.motion.texel<glm::vec2>(i) == glm::vec2(four.motion.texel<glm::vec4>(i)));
+            const seen at = rays.look(x, y);
+            if (at.doubtful || at.object < 0) {
+                continue;
+            }
+            const double before = rays.motion(at, dvec2(x + 0.5, y + 0.5)).z;
+            const auto z = static_cast<double>(four.motion.texel<glm::vec4>(i).z);
+            REQUIRE(z >= 0);
+            REQUIRE(std::abs(z - std::max(before, 0.0)) < 1e-4);
+            ++sides[before > 0 ? 0 : 1];
+        }
+    }
+    CHECK(sides[0] > 50);
+    CHECK(sides[1] > 50);
+}
+
 // Standard, reversed, infinite, parallel, either depth range and first row, d24.
 inline void check_targets(const draw_function& draw)
 {
+    check_motion_depth(draw);
     const world built = plain_world();
     world w = built;
     const ao::scene s = w.get();
@@ -174,6 +221,7 @@ inline void check_targets(const draw_function& draw)
         const auto view = camera(o, infinite ? std::numeric_limits<double>::infinity() : 60);
         auto f = all_targets();
         f.depth_format = kind == 7 ? pixel_format::d24 : pixel_format::d32f;
+        f.motion_format = kind % 4 < 2 ? pixel_format::rgba32f : pixel_format::rg32f;
         INFO("kind " << kind);
         const expectation e = compare(w, view, draw(s, f, view), kind == 7 ? 3e-7 : 1e-6);
         CHECK(e.compared > width * height * 8 / 10);

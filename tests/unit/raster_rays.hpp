@@ -232,15 +232,15 @@ public:
             m.normals.empty() ? own_normal(m, at.triangle) : interpolate(at.object, at.triangle, m.normals, pixel);
         return glm::normalize(glm::transpose(glm::inverse(glm::dmat3(model_view(at.object)))) * local);
     }
-    // Where the point was in the last frame, minus where it is.
-    dvec2 motion(const seen& at, dvec2 pixel) const
+    // Where the point was in the last frame, minus where it is; z: its eye depth then.
+    dvec3 motion(const seen& at, dvec2 pixel) const
     {
         const mesh_data& m = mesh_of(at.object);
         const auto& o = world_.objects[static_cast<std::size_t>(at.object)];
         const dvec3 local = interpolate(at.object, at.triangle, m.previous.empty() ? m.positions : m.previous, pixel);
         const frame_size before{ to_double(camera_.previous_projection.matrix), size_.row_sign };
-        return before.pixel(before.clip * to_double(camera_.previous_view) * to_double(o.previous_model) * dvec4(local, 1)) -
-               pixel;
+        const dvec4 there = to_double(camera_.previous_view) * to_double(o.previous_model) * dvec4(local, 1);
+        return { before.pixel(before.clip * there) - pixel, -there.z };
     }
 
 private:

@@ -60,7 +60,7 @@ struct target_pictures {
         images.depth = add(true, f.depth_format, deep);
         images.position = add(f.position, f.position_format, color);
         images.normal = add(f.normal, f.normal_format, color);
-        images.motion = add(f.motion, pixel_format::rg32f, color);
+        images.motion = add(f.motion, f.motion_format, color);
         images.ids = add(f.ids, pixel_format::rg32ui, color);
         images.surface = add(f.surface, pixel_format::rgba32f, color);
         images.frame = add(f.frame, pixel_format::rgba32f, color);

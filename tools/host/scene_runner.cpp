@@ -24,7 +24,7 @@ std::optional<pixel_format> format_of(const gbuffer_facts& f, scene_picture whic
     case scene_picture::normal:
         return where(f.normal && f.normals != normal_source::from_depth, f.normal_format);
     case scene_picture::motion:
-        return where(f.motion, pixel_format::rg32f);
+        return where(f.motion, f.motion_format);
     case scene_picture::ids:
         return where(f.ids, pixel_format::rg32ui);
     case scene_picture::surface:

@@ -64,7 +64,13 @@ void store_surface(const raster_frame& frame, const gbuffer_images<image_view>& 
         }
         if (f.motion) {
             const glm::vec2 pixel(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
-            put(to.motion, x, y, raster_pass::ao_geometry_motion(frame.camera, surface.previous(w), pixel));
+            const glm::vec4 motion = raster_pass::ao_geometry_motion(frame.camera, surface.previous(w), pixel);
+            if (to.motion.format == pixel_format::rgba32f) {
+                put(to.motion, x, y, motion);
+            }
+            else {
+                put(to.motion, x, y, glm::vec2(motion));
+            }
         }
         if (f.ids) {
             put(to.ids, x, y, glm::uvec2(object.object, object.code));

@@ -68,7 +68,7 @@ result<raster_targets> rasterizer::bind(model& loaded, const gbuffer_images<imag
         { images.depth, "depth", f.depth_format, true },
         { images.position, "position", f.position_format, f.position },
         { images.normal, "normal", f.normal_format, f.normal },
-        { images.motion, "motion", pixel_format::rg32f, f.motion },
+        { images.motion, "motion", f.motion_format, f.motion },
         { images.ids, "ids", pixel_format::rg32ui, f.ids },
         { images.surface, "surface", pixel_format::rgba32f, f.surface },
         { images.frame, "frame", pixel_format::rgba32f, f.frame },

@@ -17,7 +17,7 @@ layout(location = 5) flat in uvec3 ao_ids;
 
 layout(location = 0) out vec4 ao_out_position;
 layout(location = 1) out vec4 ao_out_normal;
-layout(location = 2) out vec2 ao_out_motion;
+layout(location = 2) out vec4 ao_out_motion;
 layout(location = 3) out uvec2 ao_out_ids;
 layout(location = 4) out vec4 ao_out_surface;
 layout(location = 5) out vec4 ao_out_frame;

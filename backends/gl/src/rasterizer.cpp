@@ -85,7 +85,7 @@ std::array<target, target_count> targets_of(const gbuffer_images<GLuint>& images
 {
     return { { { images.position, "position", f.position_format, f.position },
                { images.normal, "normal", f.normal_format, f.normal },
-               { images.motion, "motion", pixel_format::rg32f, f.motion },
+               { images.motion, "motion", f.motion_format, f.motion },
                { images.ids, "ids", pixel_format::rg32ui, f.ids },
                { images.surface, "surface", pixel_format::rgba32f, f.surface },
                { images.frame, "frame", pixel_format::rgba32f, f.frame } } };

@@ -11,7 +11,7 @@ layout(location = 5) flat in uvec3 ids;
 
 layout(location = 0) out vec4 out_position;
 layout(location = 1) out vec4 out_normal;
-layout(location = 2) out vec2 out_motion;
+layout(location = 2) out vec4 out_motion;
 layout(location = 3) out uvec2 out_ids;
 layout(location = 4) out vec4 out_surface;
 layout(location = 5) out vec4 out_frame;

@@ -7,7 +7,7 @@ std::array<raster_target, target_count> targets_of(const gbuffer_facts& f)
 {
     return { { { "position", f.position_format, f.position },
                { "normal", f.normal_format, f.normal },
-               { "motion", pixel_format::rg32f, f.motion },
+               { "motion", f.motion_format, f.motion },
                { "ids", pixel_format::rg32ui, f.ids },
                { "surface", pixel_format::rgba32f, f.surface },
                { "frame", pixel_format::rgba32f, f.frame } } };

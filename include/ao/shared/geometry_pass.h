@@ -41,11 +41,14 @@ AO_PASS vec4 ao_geometry_normal(uint leaf, ao_map_place place, vec3 normal, vec4
     return ao_encoded_normal(ao_normal_encoding, ao_facing_normal(n, side));
 }
 
-// The target `motion` of the point seen at `pixel` that was at `previous` in the last frame's view space.
-AO_FN vec2 ao_geometry_motion(ao_geometry_camera c, vec3 previous, vec2 pixel)
+// The target `motion` of the point seen at `pixel` that was at `previous` in the last frame's view space: z is its eye depth
+// then, 0 where it was behind the eye.
+AO_FN vec4 ao_geometry_motion(ao_geometry_camera c, vec3 previous, vec2 pixel)
 {
     vec2 before = ao_to_pixel(c.previous_projection, previous, c.previous_parallel != uint(0));
-    AO_PRECISE vec2 motion = vec2(before.x - pixel.x, before.y - pixel.y);
+    AO_PRECISE vec2 moved = vec2(before.x - pixel.x, before.y - pixel.y);
+    real depth = mix(real(0), -previous.z, previous.z < real(0));
+    vec4 motion = vec4(moved.x, moved.y, depth, real(0));
     return motion;
 }
 

@@ -9,8 +9,8 @@
 //
 // Views have exactly the plan's width and height and at most 2^31 - 1 words of 4 bytes. depth: d32f, or d24 in the low 24 bits
 // of a word whose upper 8 become 0. The others as gbuffer_facts says: position rgba32f or rgba16f, normal rgba16f, rgba32f,
-// rgb10a2 (alpha 3) or rg16, motion rg32f, ids rg32ui, surface and frame rgba32f. What the plan leaves out is not looked at.
-// Every pixel of every target is written. Targets may not overlap.
+// rgb10a2 (alpha 3) or rg16, motion rg32f or rgba32f, ids rg32ui, surface and frame rgba32f. What the plan leaves out is not
+// looked at. Every pixel of every target is written. Targets may not overlap.
 //
 // Projection: any that fold_projection takes, of either depth range; the first row in memory shows the end of NDC y that
 // camera_projection::rows names. Depth is cleared to the far end and compared with less, or greater where that is 0. Of surfaces

@@ -12,8 +12,8 @@
 //
 // Textures: GL_TEXTURE_2D, one sample, level 0 of the plan's size. depth: GL_DEPTH_COMPONENT32F or GL_DEPTH32F_STENCIL8 (d32f),
 // GL_DEPTH_COMPONENT24 or GL_DEPTH24_STENCIL8 (d24); stencil is neither read nor written. The others as gbuffer_facts says:
-// position GL_RGBA32F or GL_RGBA16F, normal GL_RGBA16F, GL_RGBA32F, GL_RGB10_A2 or GL_RG16, motion GL_RG32F, ids GL_RG32UI,
-// surface and frame GL_RGBA32F. What the plan leaves out is neither attached nor written, and its name not looked at.
+// position GL_RGBA32F or GL_RGBA16F, normal GL_RGBA16F, GL_RGBA32F, GL_RGB10_A2 or GL_RG16, motion GL_RG32F or GL_RGBA32F, ids
+// GL_RG32UI, surface and frame GL_RGBA32F. What the plan leaves out is neither attached nor written, and its name not looked at.
 //
 // Projection: any that fold_projection takes, of either depth range, whatever the host's glClipControl is; the first row in
 // memory shows the end of NDC y that camera_projection::rows names, by turning y around where that is +1. Depth is cleared to the

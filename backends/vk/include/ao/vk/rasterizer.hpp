@@ -10,7 +10,8 @@
 // What the pictures are: one level, one layer, one sample, of the plan's size. depth: D32_SFLOAT (d32f) or X8_D24_UNORM_PACK32
 // (d24), usage DEPTH_STENCIL_ATTACHMENT. The others, usage COLOR_ATTACHMENT, as gbuffer_facts says: position R32G32B32A32_SFLOAT
 // or R16G16B16A16_SFLOAT; normal R16G16B16A16_SFLOAT, R32G32B32A32_SFLOAT, A2B10G10R10_UNORM_PACK32 or R16G16_UNORM; motion
-// R32G32_SFLOAT; ids R32G32_UINT; surface and frame R32G32B32A32_SFLOAT. What the plan leaves out is not looked at.
+// R32G32_SFLOAT or R32G32B32A32_SFLOAT; ids R32G32_UINT; surface and frame R32G32B32A32_SFLOAT. What the plan leaves out is not
+// looked at.
 //
 // What the host does around record():
 //   before  the pictures are in the layouts given to bind(): GENERAL, or COLOR_ATTACHMENT_OPTIMAL, for depth
