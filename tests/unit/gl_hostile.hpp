@@ -74,8 +74,8 @@ inline std::string snapshot()
     GetIntegerv(GL_ACTIVE_TEXTURE, &active);
     for (GLenum unit = 0; unit < 8; ++unit) {
         ActiveTexture(GL_TEXTURE0 + unit);
-        for (const GLenum what :
-             { GL_TEXTURE_BINDING_2D, GL_TEXTURE_BINDING_CUBE_MAP, GL_TEXTURE_BINDING_3D, GL_SAMPLER_BINDING }) {
+        for (const GLenum what : { GL_TEXTURE_BINDING_2D, GL_TEXTURE_BINDING_CUBE_MAP, GL_TEXTURE_BINDING_3D,
+                                   GL_TEXTURE_BINDING_BUFFER, GL_SAMPLER_BINDING }) {
             add_integers(what);
         }
     }
@@ -145,6 +145,7 @@ public:
         CreateSamplers(1, &sampler_);
         CreateTextures(GL_TEXTURE_CUBE_MAP, 1, &cube_);
         CreateTextures(GL_TEXTURE_3D, 1, &volume_);
+        CreateTextures(GL_TEXTURE_BUFFER, 1, &texels_);
         CreateTextures(GL_TEXTURE_2D, 1, &flat_);
         TextureStorage2D(flat_, 1, GL_RGBA8, 8, 8);
         CreateBuffers(1, &buffer_);
@@ -174,6 +175,7 @@ public:
         for (GLuint unit = 0; unit < 7; ++unit) {
             BindTextureUnit(unit, cube_);
             BindTextureUnit(unit, volume_);
+            BindTextureUnit(unit, texels_);
             BindTextureUnit(unit, flat_);
             BindSampler(unit, sampler_);
         }
@@ -215,7 +217,7 @@ public:
         entry<decltype(glPixelStorei)>("glPixelStorei")(GL_UNPACK_SWAP_BYTES, GL_FALSE);
         entry<decltype(glBindBuffer)>("glBindBuffer")(GL_PIXEL_UNPACK_BUFFER, 0);
         entry<decltype(glDeleteSamplers)>("glDeleteSamplers")(1, &sampler_);
-        for (const GLuint texture : { cube_, volume_, flat_ }) {
+        for (const GLuint texture : { cube_, volume_, texels_, flat_ }) {
             entry<decltype(glDeleteTextures)>("glDeleteTextures")(1, &texture);
         }
         entry<decltype(glDeleteBuffers)>("glDeleteBuffers")(1, &buffer_);
@@ -243,6 +245,7 @@ private:
     GLuint sampler_ = 0;
     GLuint cube_ = 0;
     GLuint volume_ = 0;
+    GLuint texels_ = 0;
     GLuint flat_ = 0;
     GLuint buffer_ = 0;
     GLuint vertex_array_ = 0;

@@ -7,7 +7,8 @@ layout(constant_id = 2) const int ao_history_format = 0;
 layout(constant_id = 9) const bool ao_parallel = false;
 
 layout(binding = 0) uniform sampler2D ao_depth;
-layout(std430, binding = 0) readonly buffer ao_history_block { uint ao_history_words_read[]; };
+// A buffer texture, as the sequence: with storage buffers a frame of a moving camera takes 1.6 times as long on llvmpipe.
+layout(binding = 4) uniform usamplerBuffer ao_history_words_read;
 
 real ao_load_depth(ivec2 pixel)
 {
@@ -16,7 +17,7 @@ real ao_load_depth(ivec2 pixel)
 
 uint ao_load_history(uint word)
 {
-    return ao_history_words_read[word];
+    return texelFetch(ao_history_words_read, int(word)).x;
 }
 
 #include "ao/shared/history_load.h"

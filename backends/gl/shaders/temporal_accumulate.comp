@@ -15,8 +15,8 @@ layout(constant_id = 10) const bool ao_limit_thickness = false;
 layout(binding = 1) uniform sampler2D ao_normals;
 layout(binding = 2) uniform sampler2D ao_motions;
 layout(binding = 3) uniform sampler2D ao_rotations;
-layout(std430, binding = 1) writeonly buffer ao_written_block { uint ao_history_words_written[]; };
-layout(std430, binding = 2) readonly buffer ao_taps_block { vec4 ao_taps[]; };
+layout(std430, binding = 0) writeonly buffer ao_written_block { uint ao_history_words_written[]; };
+layout(binding = 5) uniform samplerBuffer ao_taps;
 
 vec4 ao_load_normal(ivec2 pixel)
 {
@@ -35,7 +35,7 @@ vec2 ao_load_rotation(ivec2 texel)
 
 vec4 ao_load_tap(uint index)
 {
-    return ao_taps[index];
+    return texelFetch(ao_taps, int(index));
 }
 
 #include "ao/shared/normal_pass.h"

@@ -90,6 +90,7 @@
     X(SamplerParameteri)                                                                                                         \
     X(ShaderBinary)                                                                                                              \
     X(ShaderSource)                                                                                                              \
+    X(TextureBuffer)                                                                                                             \
     X(TextureParameteri)                                                                                                         \
     X(TextureStorage2D)                                                                                                          \
     X(TextureStorage3D)                                                                                                          \

@@ -16,6 +16,7 @@ saved_state::saved_state(const functions& gl, const touched& what) : gl_(gl), wh
         gl.ActiveTexture(GL_TEXTURE0 + unit);
         textures_[unit] = name(GL_TEXTURE_BINDING_2D);
         samplers_[unit] = name(GL_SAMPLER_BINDING);
+        buffer_textures_[unit] = what.buffer_textures ? name(GL_TEXTURE_BINDING_BUFFER) : 0;
     }
     gl.ActiveTexture(active_texture_);
     uniform_buffer_ = name(GL_UNIFORM_BUFFER_BINDING);
@@ -105,6 +106,9 @@ saved_state::~saved_state()
         // Not glBindTextures: its 0 would take away textures of other targets too.
         gl_.ActiveTexture(GL_TEXTURE0 + unit);
         gl_.BindTexture(GL_TEXTURE_2D, textures_[unit]);
+        if (what_.buffer_textures) {
+            gl_.BindTexture(GL_TEXTURE_BUFFER, buffer_textures_[unit]);
+        }
     }
     gl_.ActiveTexture(active_texture_);
     if (what_.textures != 0) {

@@ -19,7 +19,8 @@ inline constexpr std::array<GLenum, 5> switched_off_in_depth{ GL_DEPTH_CLAMP, GL
 
 // The first so many units and bindings of each kind.
 struct touched {
-    GLuint textures = 0; // 2-D, with samplers
+    GLuint textures = 0;          // 2-D, with samplers
+    bool buffer_textures = false; // of the same units
     GLuint uniform_buffers = 0;
     GLuint storage_buffers = 0;
     GLuint images = 0;
@@ -94,6 +95,7 @@ private:
     GLuint storage_buffer_;
     std::array<GLuint, most_textures> textures_;
     std::array<GLuint, most_textures> samplers_;
+    std::array<GLuint, most_textures> buffer_textures_;
     std::array<buffer_range, most_uniform_buffers> uniform_buffers_;
     std::array<buffer_range, most_storage_buffers> storage_buffers_;
     std::array<image_unit, most_images> image_units_;

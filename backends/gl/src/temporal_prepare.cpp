@@ -10,6 +10,7 @@
 #include "temporal_state.hpp"
 
 #include <array>
+#include <string>
 #include <utility>
 
 namespace ao::gl {
@@ -69,6 +70,21 @@ result<object> link_step(const functions& gl, const options& chosen, const tempo
     return link(gl, from.name, { &*compiled, 1 });
 }
 
+// A buffer as texels; `what` names it in the error.
+result<object> make_buffer_texture(const functions& gl, const char* what, const object& buffer, GLenum format, std::size_t texels)
+{
+    const auto limit = static_cast<std::size_t>(gl.integer(GL_MAX_TEXTURE_BUFFER_SIZE));
+    if (texels > limit) {
+        return error(errc::out_of_memory, std::string(what) + ": " + std::to_string(texels) + " texels, the driver takes " +
+                                              std::to_string(limit) + " in a buffer texture");
+    }
+    GLuint name = 0;
+    gl.CreateTextures(GL_TEXTURE_BUFFER, 1, &name);
+    object made(gl, object_type::texture, name);
+    gl.TextureBuffer(name, format, buffer.name());
+    return made;
+}
+
 bool was_prepared_for(const temporal_program_state& state, const temporal_plan& p)
 {
     const facts& a = state.frame;
@@ -102,6 +118,19 @@ result<temporal_program> temporal::prepare_temporal(const temporal_plan& p)
     if (buffers.failed()) {
         return *buffers.failed();
     }
+    for (std::size_t i = 0; i < 2; ++i) {
+        result<object> texels =
+            make_buffer_texture(gl, "a history", state->histories[i], GL_R32UI, history_bytes(p) / sizeof(GLuint));
+        if (!texels) {
+            return texels.error();
+        }
+        state->history_textures[i] = std::move(*texels);
+    }
+    result<object> sequence = make_buffer_texture(gl, "the sequence of samples", state->taps, GL_RGBA32F, taps.size());
+    if (!sequence) {
+        return sequence.error();
+    }
+    state->tap_texture = std::move(*sequence);
     state->constants = make_object(gl, object_type::buffer, gl.CreateBuffers);
     gl.NamedBufferStorage(state->constants.name(), temporal_stride * static_cast<GLsizeiptr>(p.steps.size()), nullptr,
                           GL_DYNAMIC_STORAGE_BIT);

@@ -11,15 +11,19 @@ namespace ao::gl {
 
 namespace {
 
+// Units that a step does not read get whatever fits: name 0 would unbind textures of other targets too.
 std::array<GLuint, temporal_inputs> inputs_of(temporal_pass_type type, const temporal_program_state& program,
-                                              const temporal_binding_state& bound)
+                                              const temporal_binding_state& bound, const temporal_frame& frame)
 {
-    if (type == temporal_pass_type::linearize) {
-        return { bound.stored_depth, bound.stored_depth, bound.stored_depth, bound.stored_depth };
-    }
-    std::array<GLuint, temporal_inputs> inputs{ bound.depth, bound.depth, bound.depth, bound.depth };
-    if (type == temporal_pass_type::accumulate) {
-        inputs = { bound.depth, bound.normal, bound.motion, program.rotations.name() };
+    const bool accumulates = type == temporal_pass_type::accumulate;
+    const auto history = static_cast<std::size_t>(accumulates ? frame.read : frame.write);
+    std::array<GLuint, temporal_inputs> inputs{};
+    inputs.fill(type == temporal_pass_type::linearize ? bound.stored_depth : bound.depth);
+    inputs[history_unit] = program.history_textures[history].name();
+    if (accumulates) {
+        inputs = { bound.depth,          bound.normal,
+                   bound.motion,         program.rotations.name(),
+                   inputs[history_unit], program.tap_texture.name() };
     }
     if (type == temporal_pass_type::filter_columns) {
         inputs[row_unit] = program.rows.name();
@@ -43,7 +47,10 @@ void temporal::record_temporal(commands, temporal_program& program, temporal_bin
 
     std::optional<saved_state> before;
     if (options_.restore_state) {
-        before.emplace(gl, touched{ .textures = temporal_inputs, .uniform_buffers = 1, .storage_buffers = 3, .images = 1 });
+        before.emplace(
+            gl,
+            touched{
+                .textures = temporal_inputs, .buffer_textures = true, .uniform_buffers = 1, .storage_buffers = 1, .images = 1 });
     }
     const GLintptr offset = temporal_stride * static_cast<GLintptr>(which);
     gl.NamedBufferSubData(state.constants.name(), offset, static_cast<GLsizeiptr>(step.constants_size), step.constants.data());
@@ -51,16 +58,12 @@ void temporal::record_temporal(commands, temporal_program& program, temporal_bin
     gl.UseProgram(linked.program.name());
     std::array<GLuint, temporal_inputs> samplers{};
     samplers.fill(state.sampler.name());
-    gl.BindTextures(0, temporal_inputs, inputs_of(step.type, state, pictures).data());
+    gl.BindTextures(0, temporal_inputs, inputs_of(step.type, state, pictures, frame).data());
     gl.BindSamplers(0, temporal_inputs, samplers.data());
     gl.BindBufferRange(GL_UNIFORM_BUFFER, constants_index, state.constants.name(), offset,
                        static_cast<GLsizeiptr>(step.constants_size));
-    const bool accumulates = step.type == temporal_pass_type::accumulate;
-    const GLuint read = program.history(accumulates ? frame.read : frame.write);
-    gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, read_index, read);
-    if (accumulates) {
+    if (step.type == temporal_pass_type::accumulate) {
         gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, written_index, program.history(frame.write));
-        gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, sequence_index, state.taps.name());
     }
     else {
         const bool own = step.type == temporal_pass_type::linearize || step.type == temporal_pass_type::filter_rows;

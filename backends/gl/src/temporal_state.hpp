@@ -11,12 +11,11 @@
 namespace ao::gl {
 
 // Texture units of shaders/temporal_accumulate.comp. linearize reads stored depth from unit 0, the filter the row values from 1.
-inline constexpr GLsizei temporal_inputs = 4;
+inline constexpr GLsizei temporal_inputs = 6;
 inline constexpr std::size_t row_unit = 1;
-// Storage buffer bindings.
-inline constexpr GLuint read_index = 0;
-inline constexpr GLuint written_index = 1;
-inline constexpr GLuint sequence_index = 2;
+inline constexpr std::size_t history_unit = 4;
+// Storage buffer binding.
+inline constexpr GLuint written_index = 0;
 // As constants_stride, for constants of up to 272 bytes.
 inline constexpr GLintptr temporal_stride = 512;
 
@@ -29,10 +28,12 @@ struct temporal_program_state {
     std::vector<linked_step> steps;
     facts frame;
     std::array<object, 2> histories;
+    std::array<object, 2> history_textures;
     object linear; // eye depth, where the plan makes it
     object rows;   // where the plan filters
     object rotations;
     object taps;
+    object tap_texture;
     object constants;
     object sampler;
 };

@@ -18,8 +18,8 @@
 // history for read-back and copies.
 //
 // State. With options::restore_state (the default) a step leaves all state as it was. Without it, a step leaves changed: the
-// current program; 2-D textures and samplers of units 0 to 3; image unit 0; uniform buffer binding 0 and shader storage bindings
-// 0 to 2 with their generic bindings. prepare_temporal and bind_temporal change nothing.
+// current program; 2-D and buffer textures and samplers of units 0 to 5; image unit 0; uniform buffer binding 0 and shader
+// storage binding 0 with their generic bindings. prepare_temporal and bind_temporal change nothing.
 #pragma once
 
 #include "ao/gl/backend.hpp"
