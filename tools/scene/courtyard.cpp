@@ -1,6 +1,7 @@
 #include "courtyard.hpp"
 
 #include "courtyard_parts.hpp"
+#include "courtyard_screen.hpp"
 #include "courtyard_textures.hpp"
 #include "tangents.hpp"
 
@@ -250,7 +251,7 @@ void furnish(scene& s)
 
 } // namespace
 
-scene courtyard()
+scene courtyard(bool animated)
 {
     scene s;
     s.name = "courtyard";
@@ -263,6 +264,8 @@ scene courtyard()
     fountain(m);
     loose_things(m, d);
     distance(m);
+    if (animated)
+        parts::screen(m, s);
     furnish(s);
     add_tangents(s, 0, 0);
     return s;
@@ -273,6 +276,16 @@ camera courtyard_camera()
     camera c;
     c.eye = { 4.4f, 2.35f, 8.6f };
     c.yaw = -21.0f;
+    c.pitch = -5.0f;
+    c.fov = 58.0f;
+    return c;
+}
+
+camera courtyard_other_camera()
+{
+    camera c;
+    c.eye = { -5.6f, 1.75f, 7.6f };
+    c.yaw = 31.0f;
     c.pitch = -5.0f;
     c.fov = 58.0f;
     return c;

@@ -108,7 +108,12 @@ struct json_recorder {
 
     // What nlohmann::json::sax_parse calls.
     bool null() { return word(json_file::kind::null, 4); }
-    bool boolean(bool value) { return word(json_file::kind::boolean, value ? 4 : 5); }
+    bool boolean(bool value)
+    {
+        word(json_file::kind::boolean, value ? 4 : 5);
+        file.entries_.back().number = value ? 1 : 0;
+        return true;
+    }
     bool number_integer(json::number_integer_t value) { return number(static_cast<double>(value)); }
     bool number_unsigned(json::number_unsigned_t value) { return number(static_cast<double>(value)); }
     bool number_float(json::number_float_t value, const json::string_t&) { return number(value); }

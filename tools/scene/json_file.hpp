@@ -20,6 +20,7 @@ public:
     [[nodiscard]] bool is_array() const;
 
     [[nodiscard]] const std::string& string() const;
+    [[nodiscard]] bool boolean() const;
     // As float: finite and not beyond its range, from `low` on.
     [[nodiscard]] float number(double low = -1.0e30, double high = 1.0e30) const;
     // Of an array of `count` numbers.

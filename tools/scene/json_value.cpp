@@ -40,6 +40,14 @@ const std::string& json_value::string() const
     return e.text;
 }
 
+bool json_value::boolean() const
+{
+    const json_file::entry& e = file_->entries_[index_];
+    if (e.type != json_file::kind::boolean)
+        fail(std::string("must be true or false, is ") + json_file::name_of(e.type));
+    return e.number != 0.0;
+}
+
 float json_value::number(double low, double high) const
 {
     const json_file::entry& e = file_->entries_[index_];

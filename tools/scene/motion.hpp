@@ -4,6 +4,7 @@
 #include "camera.hpp"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,7 @@ public:
         object_path at;
     };
 
-    // A camera that stands, and nothing else that moves.
-    explicit motion(const camera& stands);
+    explicit motion(const camera& stands, std::vector<moving_object> objects = {});
     // `cuts`: the frames whose picture has nothing to do with the one before. Empty: none.
     motion(camera_path path, std::vector<moving_object> objects, std::function<bool(int frame)> cuts = {});
 
@@ -35,11 +35,12 @@ public:
     // Sets both transforms of every object that moves: this frame's and the one before's, which is this one's in the first frame.
     // Precondition: the objects are a scene_view's, of the scene this was made for.
     void move(std::vector<ao::object>& objects, int frame) const;
-    // The scene as it is in this frame, for rays.
+    // The scene as it is in this frame, for rays. Object and triangle numbers stay.
     [[nodiscard]] scene moved(const scene& rest, int frame) const;
     // Of an object that stands: the identity.
     [[nodiscard]] glm::dmat4 transform(std::size_t object, int frame) const;
 
+    [[nodiscard]] bool moves(std::size_t object) const;
     [[nodiscard]] bool moves_objects() const { return !objects_.empty(); }
     [[nodiscard]] bool moves_camera() const { return moves_camera_; }
 
@@ -52,9 +53,12 @@ private:
     bool moves_camera_ = true;
 };
 
+// Of the vertices of one object; nothing where it has no triangles.
+[[nodiscard]] std::optional<bounds> bounds_of(const scene& s, std::size_t object);
+
 // What a motion is made for.
 struct motion_stage {
-    const scene& rest; // courtyard(true) if it is the bundled one
+    const scene& rest;
     camera start;
     bool courtyard = false; // rest is courtyard(true): its objects move in all presets but `static`
     int frames = 64;        // a cut comes in the middle of them
@@ -62,9 +66,9 @@ struct motion_stage {
 };
 
 // Each frame half a degree further around a vertical axis through what the start camera looks at, which stays in the middle;
-// in the courtyard back and forth, clear of the walls.
+// in the courtyard there and back, clear of the walls.
 [[nodiscard]] motion orbit(const motion_stage& s);
-// Sideways, at what the start camera looks at by half a pixel a frame.
+// To the left and back, what the start camera looks at by half a pixel a frame.
 [[nodiscard]] motion pan(const motion_stage& s);
 // Stands, and from the middle of the frames on somewhere else.
 [[nodiscard]] motion cut(const motion_stage& s);
