@@ -284,9 +284,9 @@ camera courtyard_camera()
 camera courtyard_other_camera()
 {
     camera c;
-    c.eye = { -5.6f, 1.75f, 7.6f };
-    c.yaw = 31.0f;
-    c.pitch = -5.0f;
+    c.eye = { 0.6f, 1.7f, 6.4f };
+    c.yaw = -30.0f;
+    c.pitch = -4.0f;
     c.fov = 58.0f;
     return c;
 }

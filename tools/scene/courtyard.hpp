@@ -13,7 +13,7 @@ namespace ao::tools {
 
 // A view that has all of it.
 [[nodiscard]] camera courtyard_camera();
-// Another one, from the left.
+// Another one, of the screen wall from near.
 [[nodiscard]] camera courtyard_other_camera();
 
 // The box slides along the screen, the door swings and the fan turns; in frame 0 all are at rest. Precondition:
