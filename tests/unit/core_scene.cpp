@@ -181,6 +181,25 @@ TEST_CASE("A variant holds what the object needs and no more", "[core][scene]")
     CHECK_FALSE(ao::needs_frame(s.get()));
 }
 
+TEST_CASE("Motion is drawn with the depth of the last frame or without", "[core][scene]")
+{
+    small_scene s;
+    ao::gbuffer_facts f = facts();
+    for (const auto format :
+         { ao::pixel_format::rg32f, ao::pixel_format::rgba32f, ao::pixel_format::rgba16f, ao::pixel_format::r32f }) {
+        const bool known = format == ao::pixel_format::rg32f || format == ao::pixel_format::rgba32f;
+        f.motion_format = format;
+        f.motion = true;
+        const auto plan = ao::plan_drawing(s.get(), f);
+        CHECK(static_cast<bool>(plan) == known);
+        if (!plan) {
+            CHECK(plan.error().code() == ao::errc::unsupported_format);
+        }
+        f.motion = false;
+        CHECK(ao::plan_drawing(s.get(), f));
+    }
+}
+
 TEST_CASE("Draws are sorted, variants counted once, for a million objects over deep blends", "[core][scene]")
 {
     small_scene s;
