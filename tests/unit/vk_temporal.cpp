@@ -162,7 +162,7 @@ TEST_CASE("frames in one command buffer, each with its own binding, give the sam
     }
     check_one_submission(base_case("for CPUs"), vk_runner::context_of(device()));
     check_one_submission(base_case("for CPUs, in groups of 7x4", false), vk_runner::context_of(device(), { 7, 4 }));
-    ao::vk::context copied = vk_runner::context_of(device());
+    ao::vk::context copied = vk_runner::context_of(device(), {}, vk_runner::shaders::of_gpu);
     copied.readers = VK_PIPELINE_STAGE_TRANSFER_BIT;
     check_one_submission(base_case("for readers that copy"), copied);
 }
