@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace ao::tools {
@@ -30,9 +31,7 @@ picture_error measure(Picture x, std::span<const float> a, std::span<const float
     const auto count = static_cast<double>(sizes.size());
     e.rmse = std::sqrt(std::max(0.0, square / count));
     e.bias = difference / count;
-    const std::size_t rank = (sizes.size() * 99 + 99) / 100 - 1;
-    std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(rank), sizes.end());
-    e.p99 = sizes[rank];
+    e.p99 = percentile_99(std::move(sizes));
     return e;
 }
 
@@ -62,6 +61,28 @@ agreement agreement_of(std::span<const float> x, std::span<const float> y)
         result.largest = std::max(result.largest, size >= 0.0 ? size : std::numeric_limits<double>::infinity());
     }
     return result;
+}
+
+double mean_of(std::span<const double> values)
+{
+    double sum = 0.0;
+    for (const double v : values)
+        sum += v;
+    return sum / static_cast<double>(values.size());
+}
+
+double median(std::vector<double> values)
+{
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+double percentile_99(std::vector<double> values)
+{
+    const std::size_t rank = (values.size() * 99 + 99) / 100 - 1;
+    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rank), values.end());
+    return values[rank];
 }
 
 } // namespace ao::tools

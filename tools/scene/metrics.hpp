@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace ao::tools {
 
@@ -31,5 +32,12 @@ struct agreement {
 };
 
 [[nodiscard]] agreement agreement_of(std::span<const float> x, std::span<const float> y);
+
+// Precondition for these: not empty.
+[[nodiscard]] double mean_of(std::span<const double> values);
+// The upper one of two.
+[[nodiscard]] double median(std::vector<double> values);
+// Nearest rank.
+[[nodiscard]] double percentile_99(std::vector<double> values);
 
 } // namespace ao::tools

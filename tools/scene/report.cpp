@@ -133,6 +133,8 @@ select, input { font: inherit; color: inherit; background: var(--soft); border: 
 .compare img { width: 100%; display: block; image-rendering: pixelated }
 .compare .over { position: absolute; inset: 0; clip-path: inset(0 calc(100% - var(--split, 50%)) 0 0) }
 .compare .bar { position: absolute; top: 0; bottom: 0; left: var(--split, 50%); width: 2px; margin-left: -1px; background: var(--mark) }
+.charts { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 520px), 1fr)); gap: 1rem 2rem }
+.charts svg { width: 100%; display: block }
 .slide { width: 100%; margin: .5rem 0; padding: 0; accent-color: var(--mark) }
 .all { display: grid; grid-template-columns: repeat(auto-fill, minmax(280px, 1fr)); gap: 1rem }
 figure { margin: 0 } figure img { width: 100%; border: 1px solid var(--line) } figcaption { font-size: .9rem }
@@ -183,6 +185,14 @@ void append_pictures(std::string& out, const std::vector<report_picture>& pictur
         out += "<figure><img alt=\"" + escape_html(p.name) + "\" src=\"data:image/png;base64," + to_base64(p.png) +
                "\"><figcaption>" + escape_html(p.name) + "</figcaption></figure>\n";
     out += "</div>\n<script>" + std::string(script) + "</script>\n";
+}
+
+void append_charts(std::string& out, const std::vector<report_chart>& charts)
+{
+    out += "<h2>By frame</h2>\n<div class=\"charts\">\n";
+    for (const report_chart& c : charts)
+        out += "<figure><figcaption>" + escape_html(c.title) + "</figcaption>" + make_svg(c) + "</figure>\n";
+    out += "</div>\n";
 }
 
 } // namespace
@@ -245,6 +255,12 @@ std::string make_report(const report_data& data)
         out += "<h2>Drawing and shading</h2>\n";
         append_html(out, scene_table(data));
     }
+    for (const report_table& t : data.tables) {
+        out += "<h2>" + escape_html(t.title) + "</h2>\n";
+        append_html(out, t.rows);
+    }
+    if (!data.charts.empty())
+        append_charts(out, data.charts);
     if (!data.agreements.empty()) {
         out += "<h2>Agreement in bits</h2>\n";
         append_html(out, agreement_table(data));
@@ -262,6 +278,10 @@ std::string make_table(const report_data& data)
     if (!data.scenes.empty()) {
         out += '\n';
         append_text(out, scene_table(data));
+    }
+    for (const report_table& t : data.tables) {
+        out += '\n';
+        append_text(out, t.rows);
     }
     if (!data.agreements.empty()) {
         out += '\n';

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "chart.hpp"
+
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -49,6 +51,12 @@ struct report_agreement {
     std::optional<double> largest; // absent where a difference has no size
 };
 
+// The first row holds the columns' names.
+struct report_table {
+    std::string title;
+    std::vector<std::vector<std::string>> rows;
+};
+
 struct report_picture {
     std::string name;
     std::string png; // the file's bytes
@@ -60,6 +68,8 @@ struct report_data {
     std::vector<report_run> runs;
     std::optional<report_error> best_constant; // the control beside the runs
     std::vector<report_scene> scenes;
+    std::vector<report_table> tables;
+    std::vector<report_chart> charts; // on the page only
     std::vector<report_agreement> agreements;
     std::vector<report_picture> pictures; // the first two face each other when the page opens
 };
