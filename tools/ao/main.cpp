@@ -1,5 +1,6 @@
 #include "ao/options.hpp"
 #include "ao/render.hpp"
+#include "ao/temporal_render.hpp"
 #include "scene/error.hpp"
 #include "scene/signals.hpp"
 
@@ -34,8 +35,10 @@ try {
     arguments.has_yaw = render.count("--yaw") > 0;
     arguments.has_pitch = render.count("--pitch") > 0;
     arguments.has_fov = render.count("--fov") > 0;
+    arguments.has_frames = render.count("--frames") > 0;
     ao::tools::catch_interrupts();
-    ao::tools::render(ao::tools::check_arguments(arguments));
+    const ao::tools::render_options options = ao::tools::check_arguments(arguments);
+    options.temporal ? ao::tools::render_temporal(options) : ao::tools::render(options);
     return 0;
 } catch (const std::bad_alloc&) {
     return fail("out of memory");

@@ -1,55 +1,15 @@
 #include "ao/options.hpp"
 
-#include "scene/error.hpp"
+#include "ao/option_words.hpp"
 
 #include <CLI/CLI.hpp>
 
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
-#include <string_view>
-#include <utility>
-#include <vector>
+#include <tuple>
 
 namespace ao::tools {
 namespace {
-
-std::vector<std::string> split(const std::string& text, char at)
-{
-    std::vector<std::string> parts(1);
-    for (const char c : text) {
-        if (c == at)
-            parts.emplace_back();
-        else
-            parts.back() += c;
-    }
-    return parts;
-}
-
-template <class Value, std::size_t N>
-Value choose(const char* option, const std::string& word, const std::array<std::pair<std::string_view, Value>, N>& choices)
-{
-    std::string all;
-    for (const auto& [name, value] : choices) {
-        if (name == word)
-            return value;
-        if (!all.empty())
-            all += '|';
-        all += name;
-    }
-    throw error(std::string(option) + ": '" + one_line(word) + "' is none of " + all);
-}
-
-template <class Number>
-Number number(const char* option, const std::string& text)
-{
-    Number value{};
-    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (code != std::errc() || end != text.data() + text.size())
-        throw error(std::string(option) + ": '" + one_line(text) + "' is not a number in range");
-    return value;
-}
 
 float finite(const char* option, double value, double limit)
 {
@@ -195,10 +155,12 @@ void add_render_options(CLI::App& command, render_arguments& a)
                        "words with commas: perspective|parallel, zero-to-one|minus-one-to-one, reversed, infinite, y-down");
     command.add_option("--seed", a.seed, "of the random kernels and rotations");
     command.add_option("--reference", a.reference, "rays per pixel of the ray-traced truth, even; 0: none");
-    command.add_option("--frames", a.frames, "timed after warm-up; times are their medians");
+    command.add_option("--frames", a.frames,
+                       "timed after warm-up, 5 without it; times are their medians; of --temporal: shown, 32");
     command.add_option("--out", a.out, "directory for pictures and report.html");
     command.add_option("--json", a.json, "file for the numbers");
     command.add_flag("--progress", a.progress, "share done and time left on stderr");
+    add_temporal_options(command, a.temporal);
 }
 
 render_options check_arguments(const render_arguments& a)
@@ -260,7 +222,11 @@ render_options check_arguments(const render_arguments& a)
     o.reference = static_cast<unsigned>(a.reference);
     if (a.frames < 1 || a.frames > 100000)
         throw error("--frames: 1 to 100000");
-    o.frames = a.frames;
+    o.frames = a.temporal.wanted && !a.has_frames ? 32 : a.frames;
+    if (a.temporal.wanted)
+        o.temporal = check_temporal(a.temporal, o.settings);
+    if (o.temporal && a.route == "fragment")
+        throw error("--route fragment: --temporal runs as compute");
     o.out = a.out;
     o.json = a.json;
     o.progress = a.progress;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ao/plan.hpp"
+#include "ao/temporal_options.hpp"
 #include "scene/camera.hpp"
 #include "scene/images.hpp"
 
@@ -43,7 +44,8 @@ struct render_options {
     std::optional<float> fov;
     projection_choice projection;
     unsigned reference = 0; // rays per pixel, 0: none
-    int frames = 5;
+    int frames = 5;         // timed, or of the animation
+    std::optional<temporal_choice> temporal;
     std::filesystem::path out;  // empty: no files
     std::filesystem::path json; // empty: none
     bool progress = false;
@@ -57,7 +59,8 @@ struct render_arguments {
     int taps = 32, filter = 5, frames = 5;
     long long seed = 1, reference = 0;
     double radius = 1.0, bias = 0.02, yaw = 0.0, pitch = 0.0, fov = 0.0;
-    bool has_yaw = false, has_pitch = false, has_fov = false, progress = false, shade = false;
+    bool has_yaw = false, has_pitch = false, has_fov = false, has_frames = false, progress = false, shade = false;
+    temporal_arguments temporal;
 };
 void add_render_options(CLI::App& command, render_arguments& read);
 

@@ -1,63 +1,20 @@
 #include "ao/render.hpp"
 
+#include "ao/look.hpp"
+#include "ao/outcome.hpp"
 #include "ao/ray_pictures.hpp"
 #include "ao/result_files.hpp"
 #include "ao/runs.hpp"
 #include "ao/scene_input.hpp"
 #include "ao/view.hpp"
-#include "scene/courtyard.hpp"
-#include "scene/error.hpp"
 #include "scene/files.hpp"
 #include "scene/gbuffer.hpp"
-#include "scene/signals.hpp"
 #include "scene/truth.hpp"
 
-#include <glm/geometric.hpp>
-
 #include <cstdio>
-#include <limits>
 
 namespace ao::tools {
 namespace {
-
-void stop_if_interrupted()
-{
-    if (interrupted())
-        throw error("interrupted");
-}
-
-camera choose_camera(const render_options& o, const bounds& b)
-{
-    const float aspect = static_cast<float>(o.size.width) / static_cast<float>(o.size.height);
-    camera c;
-    if (o.eye) {
-        c.eye = *o.eye;
-        c.yaw = o.yaw;
-        c.pitch = o.pitch;
-        c.fov = o.fov.value_or(c.fov);
-    }
-    else if (bundled(o.scene)) {
-        c = courtyard_camera();
-        c.fov = o.fov.value_or(c.fov);
-    }
-    else {
-        c = o.fov ? frame(b, aspect, *o.fov) : frame(b, aspect);
-    }
-    return c;
-}
-
-frustum choose_frustum(const render_options& o, const camera& c, const bounds& b)
-{
-    const float aspect = static_cast<float>(o.size.width) / static_cast<float>(o.size.height);
-    depth_range range = clip_range(b, c);
-    if (!o.projection.options.parallel) {
-        if (o.projection.infinite)
-            range.far = std::numeric_limits<float>::infinity();
-        return perspective(c, aspect, range);
-    }
-    const float distance = glm::length((b.low + b.high) / 2.0f - c.eye);
-    return orthographic(c, aspect, std::max(distance, range.near), range);
-}
 
 ao::shade_plan plan_shading(const render_options& o, const ao::scene& s, const ao::shade_camera& camera)
 {
@@ -138,7 +95,7 @@ void render(const render_options& o)
     render_result result;
     result.options = o;
     result.camera = choose_camera(o, b);
-    result.frustum = choose_frustum(o, result.camera, b);
+    result.frustum = choose_frustum(o, result.camera, clip_range(b, result.camera), distance_to_middle(result.camera, b));
     const tools::view seen = make_view(o, result.camera, result.frustum);
     run_inputs in = make_inputs(o, input, seen);
     describe(result, in, input);

@@ -58,6 +58,21 @@ const char* normals_text(const facts& f)
     return "none";
 }
 
+const char* contribution_text(contribution_type c)
+{
+    return c == contribution_type::ritschel ? "ritschel" : "fox-compton";
+}
+
+const char* history_text(history_format f)
+{
+    return f == history_format::precise ? "precise" : f == history_format::packed ? "packed" : "half-stalls";
+}
+
+const char* invalidation_text(invalidation_type i)
+{
+    return i == invalidation_type::none ? "none" : i == invalidation_type::smooth ? "smooth" : "clamp";
+}
+
 std::string projection_text(const projection_choice& p)
 {
     std::string words = p.options.parallel ? "parallel" : "perspective";

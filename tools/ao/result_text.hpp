@@ -2,6 +2,7 @@
 
 #include "ao/gbuffer.hpp"
 #include "ao/options.hpp"
+#include "ao/temporal_settings.hpp"
 
 #include <string>
 
@@ -14,6 +15,9 @@ namespace ao::tools {
 [[nodiscard]] const char* kernel_text(kernel_type k);
 [[nodiscard]] const char* depth_text(const facts& f);
 [[nodiscard]] const char* normals_text(const facts& f);
+[[nodiscard]] const char* contribution_text(contribution_type c);
+[[nodiscard]] const char* history_text(history_format f);
+[[nodiscard]] const char* invalidation_text(invalidation_type i);
 [[nodiscard]] std::string projection_text(const projection_choice& p);
 // "alpha map, normal map, culled"; "plain" where there is nothing to do.
 [[nodiscard]] std::string variant_text(const draw_variant& v);

@@ -1,9 +1,9 @@
 #include "ao/runs.hpp"
 
+#include "ao/outcome.hpp"
 #include "host/runner.hpp"
 #include "host/scene_runner.hpp"
-#include "scene/error.hpp"
-#include "scene/signals.hpp"
+#include "scene/metrics.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -12,21 +12,6 @@
 
 namespace ao::tools {
 namespace {
-
-// The value, or `error` with where it was missing and why.
-template <class T>
-T take(const std::string& where, ao::result<T> result)
-{
-    if (!result)
-        throw error(where + ": " + one_line(std::string(result.error().reason())));
-    return std::move(*result);
-}
-
-void stop_if_interrupted()
-{
-    if (interrupted())
-        throw error("interrupted");
-}
 
 const char* name_of(pass_type type)
 {
@@ -41,13 +26,6 @@ const char* name_of(pass_type type)
         return "filter columns";
     }
     return "unknown";
-}
-
-double median(std::vector<double> values)
-{
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 void time_frames(run_outcome& out, host::runner& r, int frames)

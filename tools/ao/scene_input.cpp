@@ -6,6 +6,7 @@
 #include "scene/error.hpp"
 #include "scene/lights_file.hpp"
 #include "scene/load.hpp"
+#include "scene/motion.hpp"
 #include "scene/picture_files.hpp"
 
 #include <algorithm>
@@ -55,7 +56,8 @@ void add_blends(tools::scene& s, const std::string& path)
 
 tools::scene load(const render_options& o)
 {
-    tools::scene s = bundled(o.scene) ? courtyard() : load_model(o.scene);
+    const bool animated = o.temporal && moves_courtyard(o.temporal->motion);
+    tools::scene s = bundled(o.scene) ? courtyard(animated) : load_model(o.scene);
     if (!o.blend.empty())
         add_blends(s, o.blend);
     return s;
