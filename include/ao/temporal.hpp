@@ -223,6 +223,7 @@ constexpr temporal_constants make_constants(const temporal_plan& p, const tempor
     c.least_distance = s.least_distance * s.radius;
     c.largest = s.largest;
     c.moving_weight = static_cast<float>(s.moving_weight);
+    c.motion_error = p.facts.motion && p.facts.motion_format == pixel_format::rgba16f ? 0x1p-10F : 0x1p-20F;
     return c;
 }
 

@@ -55,7 +55,7 @@ struct temporal_settings {
     float spatial = 0.3F;  // c_spatial, [0, 1]: convergence from which on nothing is filtered
     float rotation = 0.5F; // c_rot, [0, 1]: the pattern is turned from pixel to pixel while conv is less
     invalidation_type invalidation = invalidation_type::smooth;
-    float smoothness = 20.0F;    // S, [0, 1e6]
+    float smoothness = 30.0F;    // S, [0, 1e6]; the paper: 15 to 30
     int clamped_weight = 48;     // samples, 0 to w_max
     float tolerance = 0.01F;     // eps of the depth test, a share of the depth, [0, 1]; precision and slope add to it
     int filter = 5;              // pixels a side, odd, 1 (none) ... max_filter

@@ -49,7 +49,7 @@ struct ao_temporal_constants {
     real largest;            // fox_compton: of one contribution, (0, 1]
     real tolerance_constant; // of the depth test, scene units
     real moving_weight;      // most_weight of a history that comes from another place on the picture
-    real reserved_0;
+    real motion_error;       // of depths and positions that come from the motion picture, as a share of the depth
 };
 
 // Whether a history is one at all: a frame never written, or poisoned, is not. NaN fails every comparison.
@@ -115,9 +115,9 @@ AO_PASS ao_history ao_recalled_history(ao_temporal_constants c, vec2 centre, ao_
         for (int i = first; i <= last; ++i) {
             real column = min(max(left + real(i), real(0)), c.width - real(1));
             real row = min(max(top + real(j), real(0)), c.height - real(1));
-            ao_history at = ao_history_at(ivec2(integer(column), integer(row)), c.width);
-            mask usable = ao_usable_history(c, at) && ao_same_surface(expected, at.depth, wide_tolerance);
-            real value = mix(real(0), at.value, usable);
+            vec2 at = ao_history_value_and_depth_at(ivec2(integer(column), integer(row)), c.width);
+            mask usable = at.x >= real(0) && at.x <= real(1) && ao_same_surface(expected, at.y, wide_tolerance);
+            real value = mix(real(0), at.x, usable);
             AO_PRECISE real bilinear = ao_linear_weight(i, across) * ao_linear_weight(j, down);
             AO_PRECISE real next_sum = linear_sum + mix(real(0), bilinear * value, usable);
             AO_PRECISE real next_weight = linear_weight + mix(real(0), bilinear, usable);
@@ -148,8 +148,9 @@ AO_PASS ao_history ao_own_history(ao_temporal_constants c, ivec2 pixel)
     return own;
 }
 
-// delta of (9) for the surface point seen by a tap, 0 where it cannot matter: behind the tangent plane in both frames, or out of
-// the last picture. `was`, `normal_was`: of the pixel itself, in the last frame.
+// delta of (9) for the surface point seen by a tap, 0 where it cannot matter: behind the tangent plane in both frames, out of
+// reach, or out of the last picture; and where it is what depths and motion are rounded by. `was`, `normal_was`: of the pixel
+// itself, in the last frame.
 AO_PASS real ao_neighbour_change(ao_temporal_constants c, ao_tap_seen seen, vec3 position, vec3 normal, vec3 was, vec3 normal_was,
                                  real bias)
 {
@@ -157,12 +158,12 @@ AO_PASS real ao_neighbour_change(ao_temporal_constants c, ao_tap_seen seen, vec3
     AO_PRECISE vec2 centre = vec2(real(seen.texel.x) + real(0.5), real(seen.texel.y) + real(0.5));
     vec3 point = ao_view_point(c.projection, centre, mix(real(1), seen.surface, surface), ao_parallel);
     ao_previous before = ao_previous_of(c, seen.texel, point);
-    ao_history h = ao_history_at(ivec2(integer(before.pixel.x), integer(before.pixel.y)), c.width);
-    mask usable = ao_usable_history(c, h);
+    real stored = ao_history_depth_at(ivec2(integer(before.pixel.x), integer(before.pixel.y)), c.width);
+    mask usable = c.history > real(0) && stored > real(0) && stored < real(1e30);
     AO_PRECISE real expected = -before.position.z;
     real tolerance = ao_depth_tolerance(expected, c.tolerance, c.tolerance_constant, c.bias_linear, c.bias_quadratic, real(0));
-    mask same = usable && ao_same_surface(expected, h.depth, tolerance);
-    vec3 stood = ao_view_point(c.previous_projection, before.pixel, mix(real(1), h.depth, usable), ao_parallel);
+    mask same = usable && ao_same_surface(expected, stored, tolerance);
+    vec3 stood = ao_view_point(c.previous_projection, before.pixel, mix(real(1), stored, usable), ao_parallel);
     vec3 then = ao_select(stood, before.position, same);
 
     AO_PRECISE vec3 now_offset = vec3(point.x - position.x, point.y - position.y, point.z - position.z);
@@ -172,12 +173,17 @@ AO_PASS real ao_neighbour_change(ao_temporal_constants c, ao_tap_seen seen, vec3
     AO_PRECISE real now_distance = sqrt(ao_dot(now_offset, now_offset));
     AO_PRECISE real then_distance = sqrt(ao_dot(then_offset, then_offset));
     AO_PRECISE real difference = abs(now_distance - then_distance);
-    // Beyond two radii nothing occludes: a change there is no change.
-    AO_PRECISE real reach = c.radius * real(2);
-    mask near_now = now_height > bias && now_distance < reach;
-    mask near_then = then_height > bias && then_distance < reach;
+    mask near_now = now_height > bias;
+    mask near_then = then_height > bias;
+    if (ao_contribution == ao_fox_compton || ao_limit_thickness) {
+        // What is farther occludes nothing: a change there is no change.
+        AO_PRECISE real reach = ao_contribution == ao_fox_compton ? c.radius : c.radius + c.thickness;
+        near_now = near_now && now_distance < reach;
+        near_then = near_then && then_distance < reach;
+    }
     // Where the last frame saw no surface, one has come.
-    real change = mix(mix(c.radius, difference, usable), real(0), same && difference <= bias);
+    real rounded = ao_depth_tolerance(expected, c.motion_error, c.tolerance_constant, c.bias_linear, c.bias_quadratic, real(0));
+    real change = mix(mix(c.radius, difference, usable), real(0), same && difference <= rounded);
     mask matters = surface && before.inside && (near_now || (usable && near_then));
     return mix(real(0), change, matters);
 }
