@@ -167,7 +167,7 @@ TEST_CASE("an animation writes what it says", "[tools][temporal]")
     CHECK(numbers["frames"][3]["backends"][0]["rmse"] > 0.0);
 }
 
-#if defined(AO_HAS_TEMPORAL_GL) && defined(AO_HAS_TEMPORAL_VK)
+#if defined(AO_HAS_GL) && defined(AO_HAS_VK)
 TEST_CASE("in every motion the backends agree in every bit of picture and history, given the same G-buffers", "[tools][temporal]")
 {
     const scratch_directory dir;

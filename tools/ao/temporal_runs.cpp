@@ -163,7 +163,7 @@ private:
 
 host::temporal_runner_ptr make_runner(const render_options& o, const std::string& backend)
 {
-#ifdef AO_HAS_TEMPORAL_CPU
+#ifdef AO_HAS_CPU
     if (backend == "cpu" && o.lanes != 0) {
         const cpu::width lanes = o.lanes == 1   ? cpu::width::scalar
                                  : o.lanes == 4 ? cpu::width::lanes4

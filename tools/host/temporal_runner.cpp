@@ -46,17 +46,17 @@ namespace {
 std::optional<ao::result<temporal_runner_ptr>> make_one([[maybe_unused]] std::string_view backend,
                                                         [[maybe_unused]] const std::string& device)
 {
-#ifdef AO_HAS_TEMPORAL_CPU
+#ifdef AO_HAS_CPU
     if (backend == "cpu") {
         return make_cpu_temporal_runner();
     }
 #endif
-#ifdef AO_HAS_TEMPORAL_GL
+#ifdef AO_HAS_GL
     if (backend == "gl") {
         return make_gl_temporal_runner(gl_context_of(device), { .restore_state = false });
     }
 #endif
-#ifdef AO_HAS_TEMPORAL_VK
+#ifdef AO_HAS_VK
     if (backend == "vk") {
         return make_vk_temporal_runner({ .device = device });
     }
