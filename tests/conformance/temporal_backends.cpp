@@ -83,3 +83,30 @@ TEST_CASE("after 200 frames of every motion no bit differs between the backends"
         }
     }
 }
+
+TEST_CASE("a size that changes with every frame begins anew each time, on every backend")
+{
+    auto runners = ao::host::make_temporal_runners("all");
+    REQUIRE(runners);
+    const ao::temporal_settings s;
+    for (int i = 0; i < 12; ++i) {
+        stage now = small_stage();
+        now.width = 3 + 7 * i;
+        now.height = 1 + 40 / (i + 1);
+        const scene_frame frame = make_frame(now, now);
+        const ao::temporal_facts f = facts_of(now, true);
+        executor reference = make_executor(s, f);
+        const picture& expected = reference.run(frame.inputs, frame.camera);
+        for (auto& runner : *runners) {
+            INFO(runner->name() << ", " << now.width << " x " << now.height);
+            REQUIRE(runner->prepare(s, f));
+            REQUIRE(runner->upload(frame.inputs.depth, frame.inputs.normal, frame.inputs.motion));
+            REQUIRE(runner->frame(frame.camera));
+            const auto seen = runner->download();
+            REQUIRE(seen);
+            if (runner->exact()) {
+                CHECK(differing_bytes(*seen, expected) == 0);
+            }
+        }
+    }
+}

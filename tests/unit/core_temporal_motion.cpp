@@ -218,6 +218,29 @@ TEST_CASE("without invalidation a shadow trails and what is uncovered shows a gh
     CHECK(ghosts.uncovered.value() > 1.1 * ghosts.fresh_uncovered.value());
 }
 
+TEST_CASE("what has converged does not flicker while new samples still come")
+{
+    const scene_frame frame = make_frame(small_stage(), small_stage());
+    executor e = make_executor(usual(), facts_of(small_stage(), true)); // objects may move at any time
+    for (int i = 0; i < 64; ++i) {
+        e.run(frame.inputs, frame.camera);
+    }
+    picture last = e.run(frame.inputs, frame.camera);
+    std::vector<float> changes;
+    for (int i = 0; i < 16; ++i) {
+        const picture next = e.run(frame.inputs, frame.camera);
+        for (std::size_t k = 0; k < next.texels.size(); ++k) {
+            changes.push_back(std::abs(next.texels[k].x - last.texels[k].x));
+        }
+        last = next;
+    }
+    std::sort(changes.begin(), changes.end());
+    const float percentile_99 = changes[changes.size() * 99 / 100];
+    INFO("p99 " << percentile_99);
+    CHECK(percentile_99 > 0);
+    CHECK(percentile_99 <= 0.01F);
+}
+
 TEST_CASE("a hundred pans of half a pixel blur an edge by less than one and a half pixels; by bilinear weights it would be more")
 {
     const ao::temporal_settings s = usual();
