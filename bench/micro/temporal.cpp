@@ -1,0 +1,200 @@
+// What a temporal frame costs beside 32 fresh samples by the same passes and beside the ao effect: interleaved medians of one
+// run, as Markdown. Backends draw the same pictures, or there are no times.
+#include "host/runner.hpp"
+#include "host/temporal_runner.hpp"
+#include "micro/measure.hpp"
+#include "unit/temporal_scene.hpp"
+
+#include <cstddef>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using namespace ao;
+using namespace ao::bench;
+
+constexpr int width = 640;
+constexpr int height = 360;
+constexpr int rounds = 15;
+
+enum class movement { none, camera, camera_and_ball };
+
+// Frames before the clock starts: histories weigh what they will from then on, and a still view is filtered no more.
+int run_in(movement m)
+{
+    return m == movement::none ? 24 : 8;
+}
+
+// The camera goes 1.6 pixels a frame on the ball, the ball 2.7 in the other direction.
+temporal_test::stage stage_at(movement m, int frame)
+{
+    temporal_test::stage s{ .width = width, .height = height };
+    if (m != movement::none) {
+        s.eye = { 0.03 * frame - 0.6, 0, 0 };
+    }
+    s.ball = m == movement::camera_and_ball ? 1.0 - 0.05 * frame : 0;
+    return s;
+}
+
+const temporal_test::scene_frame& frame_at(movement m, int frame)
+{
+    // A still view has one frame.
+    static std::vector<temporal_test::scene_frame> made[3];
+    std::vector<temporal_test::scene_frame>& all = made[static_cast<int>(m)];
+    const int index = m == movement::none ? 0 : frame;
+    while (static_cast<int>(all.size()) <= index) {
+        const int next = static_cast<int>(all.size());
+        all.push_back(temporal_test::make_frame(stage_at(m, next), stage_at(m, next == 0 ? 0 : next - 1)));
+    }
+    return all[static_cast<std::size_t>(index)];
+}
+
+struct row {
+    const char* name;
+    movement moves;
+    bool motion; // objects may move
+    bool cut;    // in every frame
+    temporal_settings settings;
+};
+
+std::vector<row> rows()
+{
+    temporal_settings fresh;
+    fresh.first_samples = fresh.later_samples = 32;
+    temporal_settings kept;
+    kept.invalidation = invalidation_type::none;
+    temporal_settings packed;
+    packed.format = history_format::packed;
+    temporal_settings bilinear;
+    bilinear.cubic = false;
+    return { { "32 fresh samples", movement::camera, false, true, fresh },
+             { "still, k = 8", movement::none, false, false, {} },
+             { "camera moves, k = 8", movement::camera, false, false, {} },
+             { "the same, bilinear", movement::camera, false, false, bilinear },
+             { "the same, packed history", movement::camera, false, false, packed },
+             { "camera and object move, k = 8", movement::camera_and_ball, true, false, {} },
+             { "the same, no invalidation", movement::camera_and_ball, true, false, kept },
+             { "the same, packed history", movement::camera_and_ball, true, false, packed } };
+}
+
+// A row's frames on one backend, one after the other.
+class subject {
+public:
+    subject(std::string_view backend, const row& r)
+        : row_(r),
+          runner_(take(std::move(host::make_temporal_runners(backend))).front().release())
+    {
+        take(runner_->prepare(r.settings, temporal_test::facts_of(stage_at(r.moves, 0), r.motion)));
+        for (int i = 0; i < run_in(r.moves); ++i) {
+            run();
+        }
+    }
+
+    // Milliseconds of all passes.
+    double run()
+    {
+        const temporal_test::scene_frame& f = frame_at(row_.moves, frame_++);
+        take(runner_->upload(f.inputs.depth, f.inputs.normal, f.inputs.motion));
+        double sum = 0;
+        for (const host::temporal_pass_time& each : take(runner_->frame(f.camera, row_.cut))) {
+            sum += each.ms;
+            if (each.pass == temporal_pass_type::accumulate) {
+                accumulate.times.push_back(each.ms);
+            }
+        }
+        return sum;
+    }
+
+    picture seen() { return take(runner_->download()); }
+    bool exact() const { return runner_->exact(); }
+
+    contestant accumulate;
+
+private:
+    row row_;
+    std::unique_ptr<host::temporal_runner> runner_;
+    int frame_ = 0;
+};
+
+// The ao effect with as many taps as fresh samples, its occlusion pass apart.
+struct effect {
+    explicit effect(std::string_view backend) : runner(std::move(take(host::make_runners(backend)).front()))
+    {
+        const temporal_test::scene_frame& f = frame_at(movement::none, 0);
+        take(runner->prepare({ .taps = 32 }, temporal_test::facts_of(stage_at(movement::none, 0), false).frame,
+                             { .projection = f.camera.projection }));
+        take(runner->upload(f.inputs.depth, f.inputs.normal));
+    }
+
+    double run()
+    {
+        double sum = 0;
+        for (const host::pass_time& each : take(runner->frame())) {
+            sum += each.ms;
+            if (each.pass == pass_type::occlusion) {
+                occlusion.times.push_back(each.ms);
+            }
+        }
+        return sum;
+    }
+
+    host::runner_ptr runner;
+    contestant occlusion;
+};
+
+void compare(std::string_view backend)
+{
+    static std::vector<picture> expected;
+    const std::vector<row> all = rows();
+    effect plain(backend);
+    std::vector<std::unique_ptr<subject>> subjects;
+    std::vector<contestant> field{ { "the ao effect, 32 taps", [&] { return plain.run(); }, {} } };
+    for (const row& each : all) {
+        subjects.push_back(std::make_unique<subject>(backend, each));
+        subjects.back()->accumulate.times.clear();
+        field.push_back({ each.name, [s = subjects.back().get()] { return s->run(); }, {} });
+    }
+    measure(field, rounds);
+    const auto median_of = [](contestant pass) {
+        pass.times.erase(pass.times.begin()); // measure's round for warming up
+        return pass.median();
+    };
+    for (std::size_t i = 0; i < subjects.size(); ++i) {
+        const picture drawn = subjects[i]->seen();
+        if (expected.size() < subjects.size()) {
+            expected.push_back(drawn);
+        }
+        else if (subjects[i]->exact() && drawn.bytes != expected[i].bytes) {
+            stop(std::string(backend) + " draws another picture than the first backend: " + all[i].name);
+        }
+    }
+
+    const double fresh = field[1].median();
+    const double fresh_pass = median_of(subjects[0]->accumulate);
+    std::printf("## %s, %dx%d\n\n| | samples, ms | of 32 fresh | frame, ms | of 32 fresh | of the ao effect |\n"
+                "|---|---|---|---|---|---|\n",
+                std::string(backend).c_str(), width, height);
+    for (std::size_t i = 0; i < field.size(); ++i) {
+        const double pass = median_of(i == 0 ? plain.occlusion : subjects[i - 1]->accumulate);
+        const double ms = field[i].median();
+        std::printf("| %s | %.2f | %.2f | %.2f | %.2f | %.2f |\n", field[i].name.c_str(), pass, pass / fresh_pass, ms, ms / fresh,
+                    ms / field[0].median());
+    }
+    std::printf("\n");
+    std::fflush(stdout);
+}
+
+} // namespace
+
+// Takes and ignores Google Benchmark's options, which ./run bench gives to every program.
+int main()
+{
+    for (const auto& each : take(host::make_temporal_runners("all"))) {
+        compare(each->backend());
+    }
+}
