@@ -5,7 +5,10 @@
 #include "micro/measure.hpp"
 #include "unit/temporal_scene.hpp"
 
+#include <bit>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -110,6 +113,31 @@ public:
         return sum;
     }
 
+    // Of the latest frame, new ones per pixel: how far each sequence has gone on from the pixel where its surface was.
+    // Precondition: precise histories.
+    double samples(const std::vector<std::uint32_t>& before)
+    {
+        const std::vector<std::uint32_t> now = words();
+        const picture& motion = frame_at(row_.moves, frame_ - 1).inputs.motion;
+        const auto index_of = [](const std::vector<std::uint32_t>& all, int x, int y) {
+            return static_cast<double>(std::bit_cast<float>(all[4 * static_cast<std::size_t>(y * width + x) + 2]));
+        };
+        double sum = 0;
+        for (int y = 0; y < height; ++y) {
+            for (int x = 0; x < width; ++x) {
+                const auto moved = motion.texel<glm::vec4>(static_cast<std::size_t>(y * width + x));
+                const float column = static_cast<float>(x) + 0.5F + moved.x;
+                const float row = static_cast<float>(y) + 0.5F + moved.y;
+                const bool known = !row_.cut && column >= 0 && row >= 0 && column < width && row < height;
+                const double from = known ? index_of(before, static_cast<int>(column), static_cast<int>(row)) : 0;
+                sum += std::fmod(index_of(now, x, y) - from + row_.settings.period, row_.settings.period);
+            }
+        }
+        return sum / (width * height);
+    }
+
+    std::vector<std::uint32_t> words() { return take(runner_->history()); }
+    bool precise() const { return row_.settings.format == history_format::precise; }
     picture seen() { return take(runner_->download()); }
     bool exact() const { return runner_->exact(); }
 
@@ -162,6 +190,7 @@ void compare(std::string_view backend)
     measure(field, rounds);
     const auto median_of = [](contestant pass) {
         pass.times.erase(pass.times.begin()); // measure's round for warming up
+        pass.times.resize(rounds);
         return pass.median();
     };
     for (std::size_t i = 0; i < subjects.size(); ++i) {
@@ -174,16 +203,28 @@ void compare(std::string_view backend)
         }
     }
 
+    std::vector<std::string> samples{ "32" };
+    for (const auto& each : subjects) {
+        const std::vector<std::uint32_t> before = each->words();
+        each->run();
+        char text[16] = "";
+        if (each->precise()) {
+            std::snprintf(text, sizeof text, "%.1f", each->samples(before));
+        }
+        samples.emplace_back(text);
+    }
+
     const double fresh = field[1].median();
     const double fresh_pass = median_of(subjects[0]->accumulate);
-    std::printf("## %s, %dx%d\n\n| | samples, ms | of 32 fresh | frame, ms | of 32 fresh | of the ao effect |\n"
-                "|---|---|---|---|---|---|\n",
-                std::string(backend).c_str(), width, height);
+    std::printf(
+        "## %s, %dx%d\n\n| | samples a pixel | their pass, ms | of 32 fresh | frame, ms | of 32 fresh | of the ao effect |\n"
+        "|---|---|---|---|---|---|---|\n",
+        std::string(backend).c_str(), width, height);
     for (std::size_t i = 0; i < field.size(); ++i) {
         const double pass = median_of(i == 0 ? plain.occlusion : subjects[i - 1]->accumulate);
         const double ms = field[i].median();
-        std::printf("| %s | %.2f | %.2f | %.2f | %.2f | %.2f |\n", field[i].name.c_str(), pass, pass / fresh_pass, ms, ms / fresh,
-                    ms / field[0].median());
+        std::printf("| %s | %s | %.2f | %.2f | %.2f | %.2f | %.2f |\n", field[i].name.c_str(), samples[i].c_str(), pass,
+                    pass / fresh_pass, ms, ms / fresh, ms / field[0].median());
     }
     std::printf("\n");
     std::fflush(stdout);
