@@ -1,4 +1,5 @@
 // The README's examples, run: a wall in front of a plane must darken it beside the wall, the same on every backend.
+#include "ao/cpu/temporal.hpp"
 #include "ao/gl/backend.hpp"
 #include "ao/vk/backend.hpp"
 #include "host/gl_texture.hpp"
@@ -20,6 +21,8 @@ std::optional<ao::error> run_gl(ao::gl::backend::get_proc_address, const ao::hos
 std::optional<ao::error> run_vk(const ao::vk::context&, const ao::host_images<ao::vk::image>&, int, int,
                                 const std::function<VkCommandBuffer(ao::camera&)>&);
 std::optional<ao::error> draw_scene(const ao::scene&, const ao::gbuffer_camera&, ao::picture&);
+std::optional<ao::error> run_temporal(const ao::picture&, const ao::picture&, const ao::picture&, ao::picture&,
+                                      const std::function<bool(ao::temporal_camera&, bool&)>&);
 
 namespace {
 
@@ -69,6 +72,26 @@ TEST_CASE("README, cpu", "[examples]")
     const auto wrong = run_cpu(in.depth, in.normals, visibility, two_frames());
     REQUIRE_FALSE(wrong);
     check(visibility);
+}
+
+TEST_CASE("README, temporal", "[examples]")
+{
+    const auto projection = ao::make_projection({ -1.0, 1.0, -0.5625, 0.5625, 0.1, 100.0 });
+    const input in(ao::depth_source::linear, ao::pixel_format::r32f, projection);
+    const ao::picture motion(ao::pixel_format::rg32f, width, height);
+    const auto run = [&](int frames) {
+        ao::picture visibility(ao::pixel_format::r32f, width, height);
+        const auto wrong = run_temporal(in.depth, in.normals, motion, visibility, [&](ao::temporal_camera& view, bool&) {
+            view.projection = projection;
+            view.world_to_view[0][0] = view.world_to_view[1][1] = view.world_to_view[2][2] = 1;
+            return frames-- > 0;
+        });
+        REQUIRE_FALSE(wrong);
+        return visibility;
+    };
+    const ao::picture late = run(20);
+    check(late);
+    CHECK(late.bytes != run(1).bytes);
 }
 
 TEST_CASE("README, gl", "[examples]")
