@@ -84,7 +84,7 @@ struct temporal_facts {
     bool motion = false; // objects move, and there is a motion picture: xy, and in the formats of four z = eye depth in the last
                          // frame, or 0
     pixel_format motion_format = pixel_format::rg32f; // rg32f, rgba16f or rgba32f
-    motion_convention convention;
+    motion_convention convention{};
 };
 
 // The first thing wrong with the settings, or nothing.

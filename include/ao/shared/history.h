@@ -1,9 +1,8 @@
 // The history of a pixel as words of a buffer, so that every backend stores the same bits: no hardware conversion is involved.
-//   ao_history_precise       4 words: value, weight, index and depth as floats
-//   ao_history_packed        2 words: value in 16 bits, to nearest, and index in 16; depth with 11 bits of fraction and weight in
-//   12 ao_history_half_stalls   2 words: four half floats, to nearest, as the paper's RGBA target held them. They stop
-//   converging: an
-//                            index above 2048 sticks and small steps of the value are lost.
+// ao_history_precise: 4 words: value, weight, index and depth as floats.
+// ao_history_packed: 2 words: value in 16 bits, to nearest, and index in 16; depth with 11 bits of fraction, and weight in 12.
+// ao_history_half_stalls: 2 words: four half floats, to nearest, as the paper's RGBA target held them. They stop converging: an
+// index above 2048 sticks and small steps of the value are lost.
 // Exactness: E.
 
 AO_CONST int ao_history_precise = 0;

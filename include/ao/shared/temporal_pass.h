@@ -150,9 +150,9 @@ AO_PASS ao_history ao_own_history(ao_temporal_constants c, ivec2 pixel)
 
 // delta of (9) for the surface point seen by a tap, 0 where it cannot matter: behind the tangent plane in both frames, out of
 // reach, or out of the last picture; and where it is what depths and motion are rounded by. `was`, `normal_was`: of the pixel
-// itself, in the last frame.
+// itself, in the last frame. `slope`: change of depth per pixel; what is near slopes as the pixel does.
 AO_PASS real ao_neighbour_change(ao_temporal_constants c, ao_tap_seen seen, vec3 position, vec3 normal, vec3 was, vec3 normal_was,
-                                 real bias)
+                                 real bias, real slope)
 {
     mask surface = seen.surface > real(0) && seen.surface < c.background;
     AO_PRECISE vec2 centre = vec2(real(seen.texel.x) + real(0.5), real(seen.texel.y) + real(0.5));
@@ -161,7 +161,7 @@ AO_PASS real ao_neighbour_change(ao_temporal_constants c, ao_tap_seen seen, vec3
     real stored = ao_history_depth_at(ivec2(integer(before.pixel.x), integer(before.pixel.y)), c.width);
     mask usable = c.history > real(0) && stored > real(0) && stored < real(1e30);
     AO_PRECISE real expected = -before.position.z;
-    real tolerance = ao_depth_tolerance(expected, c.tolerance, c.tolerance_constant, c.bias_linear, c.bias_quadratic, real(0));
+    real tolerance = ao_depth_tolerance(expected, c.tolerance, c.tolerance_constant, c.bias_linear, c.bias_quadratic, slope);
     mask same = usable && ao_same_surface(expected, stored, tolerance);
     vec3 stood = ao_view_point(c.previous_projection, before.pixel, mix(real(1), stored, usable), ao_parallel);
     vec3 then = ao_select(stood, before.position, same);
@@ -244,11 +244,12 @@ AO_PASS ao_history ao_accumulate_pass(ao_temporal_constants c, ivec2 pixel)
     // The slope does not depend on the turn of the frame.
     ao_frame upright = ao_sampling_frame(normal, vec2(real(1), real(0)));
     ao_tap_space space = ao_make_tap_space(c.projection, size, position, upright, d, c.radius);
+    real slope = ao_depth_slope(space, ao_parallel);
     ao_previous previous = { position, centre, foreground };
     ao_history h = ao_own_history(c, pixel);
     if (ao_reproject) {
         previous = ao_previous_of(c, pixel, position);
-        h = ao_recalled_history(c, centre, previous, ao_depth_slope(space, ao_parallel));
+        h = ao_recalled_history(c, centre, previous, slope);
     }
     vec3 normal_was = ao_transform_direction(ao_affine_of(c.to_previous), normal);
 
@@ -271,7 +272,7 @@ AO_PASS ao_history ao_accumulate_pass(ao_temporal_constants c, ivec2 pixel)
         AO_PRECISE real next = sum + mix(real(0), ao_contribution_of(c, seen, position, normal, bias), taken);
         sum = next;
         if (ao_reproject && ao_invalidation != ao_keep_weight) {
-            real change = ao_neighbour_change(c, seen, position, normal, previous.position, normal_was, bias);
+            real change = ao_neighbour_change(c, seen, position, normal, previous.position, normal_was, bias, slope);
             confidence = mix(confidence, min(confidence, ao_confidence(change, c.steepness)), taken);
         }
     }
