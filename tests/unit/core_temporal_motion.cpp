@@ -151,7 +151,6 @@ double edge_blur(bool cubic, double kept)
 
 TEST_CASE("in every frame of every motion the history helps, and eight samples a frame match thirty-two alone")
 {
-    rms trail;
     for (const path& p : paths) {
         const motion_errors errors = errors_of(p, usual());
         INFO(p.name << ": rmse " << errors.steady.value() << ", 32 samples alone " << errors.fresh.value() << "; "
