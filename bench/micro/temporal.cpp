@@ -90,7 +90,7 @@ class subject {
 public:
     subject(std::string_view backend, const row& r)
         : row_(r),
-          runner_(take(std::move(host::make_temporal_runners(backend))).front().release())
+          runner_(take(host::make_temporal_runners(backend)).front().release())
     {
         take(runner_->prepare(r.settings, temporal_test::facts_of(stage_at(r.moves, 0), r.motion)));
         for (int i = 0; i < run_in(r.moves); ++i) {
