@@ -60,6 +60,21 @@ struct temporal_plan {
     bool linearize = false;                // else the host's depth picture is eye depth
 };
 
+// Whether a program prepared for `a` executes `b`: they differ in nothing but what next_frame puts into constants, and in the
+// formats of pictures that are read.
+constexpr bool same_program(const temporal_plan& a, const temporal_plan& b)
+{
+    const facts& f = a.facts.frame;
+    const facts& g = b.facts.frame;
+    bool same = f.width == g.width && f.height == g.height && f.depth == g.depth && f.output_format == g.output_format &&
+                a.settings.period == b.settings.period && a.settings.density == b.settings.density &&
+                a.settings.seed == b.settings.seed && a.steps.size() == b.steps.size();
+    for (std::size_t i = 0; same && i < a.steps.size(); ++i) {
+        same = a.steps[i].type == b.steps[i].type && a.steps[i].options == b.steps[i].options;
+    }
+    return same;
+}
+
 // Bytes of one of the two history buffers.
 constexpr std::size_t history_bytes(const temporal_plan& p)
 {

@@ -308,6 +308,30 @@ TEST_CASE("motion that is no motion counts as out of the picture, singular camer
     CHECK(state.still_frames == kept.still_frames);
 }
 
+TEST_CASE("a program executes the plans that differ in constants alone")
+{
+    const ao::temporal_settings s;
+    const ao::temporal_facts f = facts_of({}, true);
+    const ao::temporal_plan plan = *ao::make_temporal_plan(s, f);
+    const auto same = [&](auto&& change) {
+        ao::temporal_settings other = s;
+        ao::temporal_facts seen = f;
+        change(other, seen);
+        return ao::same_program(plan, *ao::make_temporal_plan(other, seen));
+    };
+    CHECK(same([](auto&, auto&) {}));
+    CHECK(same([](auto& o, auto&) { o.radius = 3; }));
+    CHECK(same([](auto& o, auto&) { o.most_weight = 100; }));
+    CHECK_FALSE(same([](auto& o, auto&) { o.period = 8192; })); // taps that the program does not have
+    CHECK_FALSE(same([](auto& o, auto&) { o.seed = 2; }));
+    CHECK_FALSE(same([](auto& o, auto&) { o.format = ao::history_format::packed; }));
+    CHECK_FALSE(same([](auto& o, auto&) { o.filter = 1; }));
+    CHECK_FALSE(same([](auto& o, auto&) { o.cubic = false; }));
+    CHECK_FALSE(same([](auto&, auto& k) { k.frame.height += 1; }));
+    CHECK_FALSE(same([](auto&, auto& k) { k.frame.output_format = ao::pixel_format::r8; }));
+    CHECK_FALSE(same([](auto&, auto& k) { k.motion = false; }));
+}
+
 TEST_CASE("every convention of motion says the same")
 {
     stage before;

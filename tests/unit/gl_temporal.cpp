@@ -156,6 +156,11 @@ TEST_CASE("temporal binding names the texture that does not fit")
     REQUIRE(other);
     CHECK(gl.bind_temporal(*other, *less, { depth.name, 0, 4711, depth.name }));
     CHECK(gl.bind_temporal(*other, *plan, good).error().code() == ao::errc::plan_mismatch);
+    temporal_case longer = still; // its taps are not in the program
+    longer.settings.period *= 2;
+    const auto more = ao::make_temporal_plan(longer.settings, longer.facts);
+    REQUIRE(more);
+    CHECK(gl.bind_temporal(*other, *more, { depth.name, 0, 0, depth.name }).error().code() == ao::errc::plan_mismatch);
 }
 
 TEST_CASE("temporal executors name what the driver lacks")

@@ -58,31 +58,19 @@ void history_watch::make_eye_depth(const temporal_step* linearize, const picture
         }
 }
 
-// The beginning of ao_accumulate_pass, up to where samples are taken.
 template <class Pass>
 history_watch::pixel_facts history_watch::look_at(Pass& pass, const typename Pass::ao_temporal_constants& c, glm::ivec2 pixel,
                                                   std::span<const std::uint32_t> after) const
 {
     const auto width = static_cast<std::size_t>(plan_.facts.frame.width);
     const auto place = [&](int x, int y) { return static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x); };
+    const auto begun = pass.ao_begin_pixel(c, pixel);
     pixel_facts facts;
-    facts.from = place(pixel.x, pixel.y);
-    const float d = pass.ao_load_depth(pixel);
-    if (!(d > 0.0f && d < c.background))
+    facts.from = place(static_cast<int>(begun.previous.pixel.x), static_cast<int>(begun.previous.pixel.y));
+    if (!begun.foreground)
         return facts;
-    const glm::vec2 size(c.width, c.height);
-    const glm::vec2 centre(static_cast<float>(pixel.x) + 0.5f, static_cast<float>(pixel.y) + 0.5f);
-    const glm::vec3 position = pass.ao_view_point(c.projection, centre, d, pass.ao_parallel);
-    auto known = pass.ao_own_history(c, pixel);
-    if (pass.ao_reproject) {
-        const glm::vec3 normal = pass.ao_shading_normal(c.projection, c.normal_to_view, size, pixel, position, pass.ao_parallel);
-        const auto upright = pass.ao_sampling_frame(normal, glm::vec2(1.0f, 0.0f));
-        const auto space = pass.ao_make_tap_space(c.projection, size, position, upright, d, c.radius);
-        const auto previous = pass.ao_previous_of(c, pixel, position);
-        known = pass.ao_recalled_history(c, centre, previous, pass.ao_depth_slope(space, pass.ao_parallel));
-        facts.from = place(static_cast<int>(previous.pixel.x), static_cast<int>(previous.pixel.y));
-    }
-    const float wanted = known.weight < c.adaptive_weight ? c.first_samples : c.later_samples;
+    const auto& known = begun.history;
+    const float wanted = begun.wanted;
     facts.samples = static_cast<int>(wanted);
     // As the format holds it.
     const int format = static_cast<int>(plan_.settings.format);

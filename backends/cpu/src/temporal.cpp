@@ -11,19 +11,8 @@
 namespace ao::cpu {
 
 struct temporal_program_state {
-    // What it was prepared for.
-    struct prepared_step {
-        temporal_pass_type type{};
-        temporal_options options;
-
-        friend bool operator==(const prepared_step&, const prepared_step&) = default;
-    };
-    inline_vector<prepared_step, 6> steps;
-    int width = 0;
-    int height = 0;
-    bool linearize = false;
-
-    int pitch = 0; // floats between rows of the pictures
+    temporal_plan plan; // what it was prepared for
+    int pitch = 0;      // floats between rows of the pictures
     std::size_t pixels = 0;
     int words = 0; // of a pixel's history
     std::size_t period = 0;
@@ -99,13 +88,10 @@ result<temporal_program> temporal::prepare_temporal(const temporal_plan& p)
         return error(errc::out_of_memory, "no memory for a program");
     }
     bool filters = false;
-    for (std::size_t i = 0; i < p.steps.size(); ++i) {
-        made->steps.push_back({ p.steps[i].type, p.steps[i].options });
-        filters = filters || p.steps[i].type == temporal_pass_type::filter_rows;
+    for (const temporal_step& step : p.steps) {
+        filters = filters || step.type == temporal_pass_type::filter_rows;
     }
-    made->width = f.width;
-    made->height = f.height;
-    made->linearize = p.linearize;
+    made->plan = p;
     made->pitch = detail::padded_pitch(f.width);
     made->pixels = static_cast<std::size_t>(f.width) * static_cast<std::size_t>(f.height);
     const std::size_t padded = static_cast<std::size_t>(made->pitch) * static_cast<std::size_t>(f.height);
@@ -149,14 +135,8 @@ result<temporal_program> temporal::prepare_temporal(const temporal_plan& p)
 result<temporal_binding> temporal::bind_temporal(temporal_program& program, const temporal_plan& p,
                                                  const temporal_images<image>& images)
 {
-    const temporal_program_state& state = *program.state_;
     const facts& f = p.facts.frame;
-    bool same = f.width == state.width && f.height == state.height && p.linearize == state.linearize &&
-                static_cast<std::size_t>(p.settings.period) == state.period && p.steps.size() == state.steps.size();
-    for (std::size_t i = 0; same && i < p.steps.size(); ++i) {
-        same = state.steps[i] == temporal_program_state::prepared_step{ p.steps[i].type, p.steps[i].options };
-    }
-    if (!same) {
+    if (!same_program(program.state_->plan, p)) {
         return error(errc::plan_mismatch, "the plan differs from the one prepared");
     }
     struct expected {
@@ -193,8 +173,8 @@ void temporal::record_temporal(commands, temporal_program& program, temporal_bin
         detail::pass_arguments a;
         a.options.affine = step.options.affine;
         std::memcpy(a.constants, step.constants.data(), step.constants_size);
-        a.width = state.width;
-        a.height = state.height;
+        a.width = p.facts.frame.width;
+        a.height = p.facts.frame.height;
         a.source = stored;
         a.target = linear;
         return machine_->run(machine_->kernels.linearize, a);
@@ -206,9 +186,9 @@ void temporal::record_temporal(commands, temporal_program& program, temporal_bin
     a.options = step.options;
     assert(step.constants_size <= sizeof a.constants);
     std::memcpy(a.constants, step.constants.data(), step.constants_size);
-    a.width = state.width;
-    a.height = state.height;
-    a.depth = state.linearize ? linear : stored;
+    a.width = p.facts.frame.width;
+    a.height = p.facts.frame.height;
+    a.depth = p.linearize ? linear : stored;
     a.normal = detail::plane_of(images.normal);
     a.motion = detail::plane_of(images.motion);
     a.rows = rows;

@@ -85,18 +85,6 @@ result<object> make_buffer_texture(const functions& gl, const char* what, const 
     return made;
 }
 
-bool was_prepared_for(const temporal_program_state& state, const temporal_plan& p)
-{
-    const facts& a = state.frame;
-    const facts& b = p.facts.frame;
-    bool same = state.steps.size() == p.steps.size() && a.width == b.width && a.height == b.height && a.depth == b.depth &&
-                a.output_format == b.output_format;
-    for (std::size_t i = 0; same && i < p.steps.size(); ++i) {
-        same = state.steps[i].type == p.steps[i].type && state.steps[i].options == p.steps[i].options;
-    }
-    return same;
-}
-
 } // namespace
 
 result<temporal_program> temporal::prepare_temporal(const temporal_plan& p)
@@ -108,7 +96,7 @@ result<temporal_program> temporal::prepare_temporal(const temporal_plan& p)
         return *wrong;
     }
     auto state = std::make_unique<temporal_program_state>();
-    state->frame = f;
+    state->plan = p;
     buffer_maker buffers(gl);
     for (object& history : state->histories) {
         history = buffers.storage_of_size("a history", history_bytes(p), GL_DYNAMIC_STORAGE_BIT);
@@ -152,7 +140,7 @@ result<temporal_program> temporal::prepare_temporal(const temporal_plan& p)
         if (!linked) {
             return linked.error();
         }
-        state->steps.push_back({ step.type, step.options, std::move(*linked) });
+        state->programs.push_back(std::move(*linked));
     }
     if (const GLenum code = gl.take_error(); code != GL_NO_ERROR) {
         return gl_error("preparing the passes", code);
@@ -166,7 +154,7 @@ result<temporal_binding> temporal::bind_temporal(temporal_program& program, cons
     const functions& gl = *gl_;
     gl.take_error();
     const temporal_program_state& from = *program.state_;
-    if (!was_prepared_for(from, p)) {
+    if (!same_program(from.plan, p)) {
         return error(errc::plan_mismatch, "the program was prepared for another plan");
     }
     const facts& f = p.facts.frame;

@@ -39,11 +39,10 @@ void temporal::record_temporal(commands, temporal_program& program, temporal_bin
     const functions& gl = *gl_;
     const temporal_program_state& state = *program.state_;
     const temporal_binding_state& pictures = *bound.state_;
-    assert(index < frame.steps.size() && frame.steps[index] < state.steps.size());
+    assert(index < frame.steps.size() && frame.steps[index] < state.programs.size());
     const std::size_t which = frame.steps[index];
     const temporal_step& step = p.steps[which];
-    const auto& linked = state.steps[which];
-    assert(step.type == linked.type);
+    assert(step.type == state.plan.steps[which].type);
 
     std::optional<saved_state> before;
     if (options_.restore_state) {
@@ -55,7 +54,7 @@ void temporal::record_temporal(commands, temporal_program& program, temporal_bin
     const GLintptr offset = temporal_stride * static_cast<GLintptr>(which);
     gl.NamedBufferSubData(state.constants.name(), offset, static_cast<GLsizeiptr>(step.constants_size), step.constants.data());
 
-    gl.UseProgram(linked.program.name());
+    gl.UseProgram(state.programs[which].name());
     std::array<GLuint, temporal_inputs> samplers{};
     samplers.fill(state.sampler.name());
     gl.BindTextures(0, temporal_inputs, inputs_of(step.type, state, pictures, frame).data());

@@ -20,13 +20,8 @@ inline constexpr GLuint written_index = 0;
 inline constexpr GLintptr temporal_stride = 512;
 
 struct temporal_program_state {
-    struct linked_step {
-        temporal_pass_type type{};
-        temporal_options options;
-        object program;
-    };
-    std::vector<linked_step> steps;
-    facts frame;
+    temporal_plan plan;           // what it was prepared for
+    std::vector<object> programs; // of its steps
     std::array<object, 2> histories;
     std::array<object, 2> history_textures;
     object linear; // eye depth, where the plan makes it

@@ -6,20 +6,6 @@ namespace ao::vk {
 
 namespace {
 
-// Whether a program prepared for `a` runs `b`: only what goes into constants may differ.
-bool same_structure(const temporal_plan& a, const temporal_plan& b)
-{
-    const facts& f = a.facts.frame;
-    const facts& g = b.facts.frame;
-    bool same = f.width == g.width && f.height == g.height && f.depth == g.depth && f.output_format == g.output_format &&
-                a.settings.period == b.settings.period && a.settings.density == b.settings.density &&
-                a.settings.seed == b.settings.seed && a.steps.size() == b.steps.size();
-    for (std::size_t i = 0; same && i < a.steps.size(); ++i) {
-        same = a.steps[i].type == b.steps[i].type && a.steps[i].options == b.steps[i].options;
-    }
-    return same;
-}
-
 std::optional<error> wrong_images(const temporal_plan& p, const temporal_images<image>& images)
 {
     if (images.depth.view == VK_NULL_HANDLE || images.visibility.view == VK_NULL_HANDLE) {
@@ -154,7 +140,7 @@ result<temporal_binding> temporal::bind_temporal(temporal_program& program, cons
 {
     const device& d = *device_;
     const temporal_program_state& from = *program.state_;
-    if (!same_structure(from.plan, p)) {
+    if (!same_program(from.plan, p)) {
         return error(errc::plan_mismatch, "the program was prepared for a plan of another structure");
     }
     if (const auto wrong = wrong_images(p, images)) {

@@ -229,8 +229,19 @@ AO_FN real ao_depth_slope(ao_tap_space space, bool parallel)
     return min(slope, most);
 }
 
-// What the next frames are to know of the pixel. Background: all 0.
-AO_PASS ao_history ao_accumulate_pass(ao_temporal_constants c, ivec2 pixel)
+// A pixel before its new samples are taken.
+struct ao_temporal_pixel {
+    mask foreground;
+    real depth; // eye depth, 1 on background
+    vec3 position;
+    vec3 normal;
+    real slope; // change of depth per pixel
+    ao_previous previous;
+    ao_history history;
+    real wanted; // new samples, 0 on background
+};
+
+AO_PASS ao_temporal_pixel ao_begin_pixel(ao_temporal_constants c, ivec2 pixel)
 {
     real stored = ao_load_depth(pixel);
     mask foreground = stored > real(0) && stored < c.background;
@@ -239,27 +250,39 @@ AO_PASS ao_history ao_accumulate_pass(ao_temporal_constants c, ivec2 pixel)
     AO_PRECISE vec2 centre = vec2(real(pixel.x) + real(0.5), real(pixel.y) + real(0.5));
     vec3 position = ao_view_point(c.projection, centre, d, ao_parallel);
     vec3 normal = ao_shading_normal(c.projection, c.normal_to_view, size, pixel, position, ao_parallel);
-    AO_PRECISE real bias = c.bias + d * (c.bias_linear + d * c.bias_quadratic);
-
     // The slope does not depend on the turn of the frame.
     ao_frame upright = ao_sampling_frame(normal, vec2(real(1), real(0)));
-    ao_tap_space space = ao_make_tap_space(c.projection, size, position, upright, d, c.radius);
-    real slope = ao_depth_slope(space, ao_parallel);
+    real slope = ao_depth_slope(ao_make_tap_space(c.projection, size, position, upright, d, c.radius), ao_parallel);
     ao_previous previous = { position, centre, foreground };
     ao_history h = ao_own_history(c, pixel);
     if (ao_reproject) {
         previous = ao_previous_of(c, pixel, position);
         h = ao_recalled_history(c, centre, previous, slope);
     }
+    real wanted = mix(c.later_samples, c.first_samples, h.weight < c.adaptive_weight);
+    ao_temporal_pixel begun = { foreground, d, position, normal, slope, previous, h, mix(real(0), wanted, foreground) };
+    return begun;
+}
+
+// What the next frames are to know of the pixel. Background: all 0.
+AO_PASS ao_history ao_accumulate_pass(ao_temporal_constants c, ivec2 pixel)
+{
+    ao_temporal_pixel begun = ao_begin_pixel(c, pixel);
+    mask foreground = begun.foreground;
+    real d = begun.depth;
+    vec3 position = begun.position;
+    vec3 normal = begun.normal;
+    ao_history h = begun.history;
+    real wanted = begun.wanted;
+    AO_PRECISE real bias = c.bias + d * (c.bias_linear + d * c.bias_quadratic);
     vec3 normal_was = ao_transform_direction(ao_affine_of(c.to_previous), normal);
 
     vec2 tile = ao_load_rotation(ao_tile_texel(pixel));
     mask turned = h.weight < c.rotation_weight;
     vec2 helper = vec2(mix(real(1), tile.x, turned), mix(real(0), tile.y, turned));
-    ao_tap_space taps = ao_make_tap_space(c.projection, size, position, ao_sampling_frame(normal, helper), d, c.radius);
+    ao_tap_space taps =
+        ao_make_tap_space(c.projection, vec2(c.width, c.height), position, ao_sampling_frame(normal, helper), d, c.radius);
 
-    real wanted = mix(c.later_samples, c.first_samples, h.weight < c.adaptive_weight);
-    wanted = mix(real(0), wanted, foreground);
     real sum = real(0);
     real confidence = real(1);
     for (int i = 0; i < ao_most_samples; ++i) {
@@ -272,7 +295,7 @@ AO_PASS ao_history ao_accumulate_pass(ao_temporal_constants c, ivec2 pixel)
         AO_PRECISE real next = sum + mix(real(0), ao_contribution_of(c, seen, position, normal, bias), taken);
         sum = next;
         if (ao_reproject && ao_invalidation != ao_keep_weight) {
-            real change = ao_neighbour_change(c, seen, position, normal, previous.position, normal_was, bias, slope);
+            real change = ao_neighbour_change(c, seen, position, normal, begun.previous.position, normal_was, bias, begun.slope);
             confidence = mix(confidence, min(confidence, ao_confidence(change, c.steepness)), taken);
         }
     }
