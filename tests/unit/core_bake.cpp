@@ -1,0 +1,69 @@
+// Ambient occlusion per vertex in closed form, by the reference.
+#include "core_bake_meshes.hpp"
+
+#include "ao/bake.hpp"
+#include "ao/conformance/bake_reference.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace bake_test;
+
+namespace {
+
+ao::bake_result baked(const mesh& m, const ao::bake_settings& settings = {}, int points = 1202)
+{
+    const auto rule = ao::lebedev_rule(points);
+    const auto job = ao::prepare_bake(m.input(), *rule, settings);
+    REQUIRE(job);
+    return ao::finish_bake(*job, *ao::bake_reference(*job));
+}
+
+constexpr ao::bake_settings by_cosine{ .coefficient = ao::bake_coefficient::cosine };
+
+} // namespace
+
+TEST_CASE("convex meshes are open everywhere, exactly", "[bake]")
+{
+    const mesh shape = GENERATE(sphere({ 0, 0, 0 }, 1, 2), box({ -1, -2, -3 }, { 1, 2, 3 }, 2, false),
+                                welded(box({ -1, -2, -3 }, { 1, 2, 3 }, 2, false)), sphere({ 100, 7, 3 }, 0.01, 1));
+    for (const ao::bake_settings& settings : { ao::bake_settings{}, by_cosine }) {
+        const ao::bake_result r = baked(shape, settings, 302);
+        CHECK(std::all_of(r.coefficients.begin(), r.coefficients.end(), [](float c) { return c == 1; }));
+        CHECK(std::all_of(r.errors.begin(), r.errors.end(), [](float e) { return e == 0; }));
+        CHECK(r.report.enclosed == 0);
+    }
+}
+
+TEST_CASE("walls through a vertex block what is behind them: the joints of a room of three grids", "[bake]")
+{
+    constexpr int cells = 10;
+    mesh room;
+    append(room, grid({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, cells));
+    append(room, grid({ 0, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, cells));
+    append(room, grid({ 0, 0, 0 }, { 0, 0, 1 }, { 1, 0, 0 }, cells));
+    // Half of the half sphere is behind a wall; of the rest the other wall, a unit square at distance a, hides the solid angle
+    // atan(1 / (a sqrt(a^2 + 2))).
+    const auto exact = [](double a) { return 0.5 - std::atan(1 / (a * std::sqrt(a * a + 2))) / (2 * std::numbers::pi); };
+    const mesh m = GENERATE_COPY(room, welded(room));
+    const auto rule = ao::lebedev_rule(5810);
+    const auto job = ao::prepare_bake(m.input(), *rule, {});
+    REQUIRE(job);
+    double sum = 0;
+    double exact_sum = 0;
+    int joint = 0;
+    for (std::size_t i = 0; i < m.positions.size(); ++i) {
+        const glm::dvec3& p = m.positions[i];
+        const int walls = (p.x == 0) + (p.y == 0) + (p.z == 0);
+        const double a = p.x + p.y + p.z;
+        if (walls < 2 || a == 1) { // where the wall ends, half of it is missing
+            continue;
+        }
+        const auto sums = ao::bake_vertex_reference(*job, i, 0, job->lines.size());
+        const double value = static_cast<double>(sums.open) / sums.all;
+        CHECK(std::abs(value - (walls == 3 ? 0.25 : exact(a))) < (walls == 3 ? 2e-3 : 4e-3));
+        sum += value;
+        exact_sum += walls == 3 ? 0.25 : exact(a);
+        ++joint;
+    }
+    CHECK(std::abs(sum - exact_sum) / joint < 1e-3);
+}
