@@ -3,6 +3,7 @@
 #pragma once
 
 #include "ao/detail/text.hpp"
+#include "ao/half_turn.hpp"
 #include "ao/kernel.hpp"
 #include "ao/lebedev.hpp"
 #include "ao/math.hpp"
@@ -19,7 +20,7 @@ namespace ao {
 using direction3 = std::array<double, 3>;
 
 // What a rule's weights integrate over. Directions of the last two are about +z, all with z > 0, and are turned to each normal
-// (turned_to); they are never antipodal.
+// (rotation_to); they are never antipodal.
 enum class rule_domain {
     sphere,
     hemisphere,        // uniformly
@@ -80,14 +81,12 @@ constexpr rotation3 rotation_of_index(std::uint32_t index)
                                   b * detail::sine(second));
 }
 
-// Takes +z to the unit vector n, for rules about +z; of all such rotations, one that is finite for every n.
+// Takes +z to the unit vector n: for rules about +z. Continuous in n but at -z.
 constexpr rotation3 rotation_to(const direction3& n)
 {
-    using reals = math<double>;
-    const glm::dvec3 normal(n[0], n[1], n[2]);
-    const glm::dvec3 t = reals::ao_any_tangent(normal);
-    const glm::dvec3 b = reals::ao_cross(normal, t);
-    return { t.x, b.x, normal.x, 0, t.y, b.y, normal.y, 0, t.z, b.z, normal.z, 0 };
+    const glm::dvec3 h = half_turn<double>::ao_half_turn_axis({ n[0], n[1], n[2] });
+    return { 2 * h.x * h.x - 1, 2 * h.x * h.y, 2 * h.x * h.z,     0, 2 * h.x * h.y, 2 * h.y * h.y - 1, 2 * h.y * h.z, 0,
+             2 * h.x * h.z,     2 * h.y * h.z, 2 * h.z * h.z - 1, 0 };
 }
 
 // Antipodes stay exact.
