@@ -3,28 +3,25 @@
 #pragma once
 
 #include "ao/detail/text.hpp"
-#include "ao/half_turn.hpp"
 #include "ao/kernel.hpp"
 #include "ao/lebedev.hpp"
 #include "ao/math.hpp"
 #include "ao/result.hpp"
+#include "ao/rotation.hpp"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace ao {
 
-using direction3 = std::array<double, 3>;
-
-// What a rule's weights integrate over. Directions of the last two are about +z, all with z > 0, and are turned to each normal
-// (rotation_to); they are never antipodal.
+// What a rule's weights integrate over. Directions of all but the first are about +z, all with z > 0, and are turned to each
+// normal (rotation_to); they are never antipodal.
 enum class rule_domain {
     sphere,
     hemisphere,        // uniformly
     cosine_hemisphere, // by z / pi
+    lobe,              // by a power of z about a mirror direction, for light only (ao/lobe_rule.hpp)
 };
 
 // Directions are of unit length to 1e-15. `antipodal`: directions[2 i + 1] is exactly -directions[2 i], of the same weight.
@@ -40,54 +37,6 @@ struct sphere_rule {
 };
 
 inline constexpr int max_rule_points = 1 << 22;
-
-using rotation3 = math<double>::ao_rotation;
-
-inline constexpr rotation3 no_rotation{ 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0 };
-
-// By a quaternion (w, x, y, z) of any length but 0.
-constexpr rotation3 rotation_of_quaternion(double w, double x, double y, double z)
-{
-    const double s = 2 / (w * w + x * x + y * y + z * z);
-    return { 1 - s * (y * y + z * z), s * (x * y - w * z),     s * (x * z + w * y),     0,
-             s * (x * y + w * z),     1 - s * (x * x + z * z), s * (y * z - w * x),     0,
-             s * (x * z - w * y),     s * (y * z + w * x),     1 - s * (x * x + y * y), 0 };
-}
-
-constexpr direction3 rotated(const rotation3& rotation, const direction3& d)
-{
-    const auto r = math<double>::ao_rotate(rotation, { d[0], d[1], d[2] });
-    return { r.x, r.y, r.z };
-}
-
-// Takes directions off the planes and axes along which models are built, where a symmetric rule has many of its points: rays
-// would meet edges exactly (a sealed room leaks; vertex-ao.md 5.2). Of the quaternions of square roots of different primes up to
-// 23 one that keeps the points of all Lebedev rules away from the nine mirror planes of the cube and the four planes normal to
-// its diagonals: N points never come nearer than 0.04 / N.
-inline constexpr rotation3 generic_rotation =
-    rotation_of_quaternion(detail::sqrt(2.0), detail::sqrt(7.0), detail::sqrt(11.0), detail::sqrt(17.0));
-
-// Uniform over all rotations, the same for an index always (K. Shoemake, "Uniform random rotations", Graphics Gems III, 1992):
-// for rules that differ per vertex, which trades banding for noise.
-constexpr rotation3 rotation_of_index(std::uint32_t index)
-{
-    random_stream random(index);
-    const double u = static_cast<double>(random.uniform());
-    const double first = 2 * detail::pi * static_cast<double>(random.uniform());
-    const double second = 2 * detail::pi * static_cast<double>(random.uniform());
-    const double a = detail::sqrt(1 - u);
-    const double b = detail::sqrt(u);
-    return rotation_of_quaternion(b * detail::cosine(second), a * detail::sine(first), a * detail::cosine(first),
-                                  b * detail::sine(second));
-}
-
-// Takes +z to the unit vector n: for rules about +z. Continuous in n but at -z.
-constexpr rotation3 rotation_to(const direction3& n)
-{
-    const glm::dvec3 h = half_turn<double>::ao_half_turn_axis({ n[0], n[1], n[2] });
-    return { 2 * h.x * h.x - 1, 2 * h.x * h.y, 2 * h.x * h.z,     0, 2 * h.x * h.y, 2 * h.y * h.y - 1, 2 * h.y * h.z, 0,
-             2 * h.x * h.z,     2 * h.y * h.z, 2 * h.z * h.z - 1, 0 };
-}
 
 // Antipodes stay exact.
 inline void rotate(sphere_rule& rule, const rotation3& rotation)
@@ -247,7 +196,7 @@ inline result<sphere_rule> halton_rule(int count, rule_domain domain)
     if (!detail::countable(count)) {
         return detail::uncountable(count);
     }
-    if (domain == rule_domain::sphere) {
+    if (domain != rule_domain::hemisphere && domain != rule_domain::cosine_hemisphere) {
         return error(errc::invalid_settings, "Halton rules are for hemispheres");
     }
     using reals = math<double>;
