@@ -9,8 +9,10 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 
 namespace ao {
 
@@ -80,6 +82,14 @@ constexpr std::size_t history_bytes(const temporal_plan& p)
 {
     const auto words = static_cast<std::size_t>(math<float>::ao_history_words(static_cast<int>(p.settings.format)));
     return 4 * words * static_cast<std::size_t>(p.facts.frame.width) * static_cast<std::size_t>(p.facts.frame.height);
+}
+
+// A pixel's words from the content of such a buffer, pixel after pixel.
+constexpr glm::uvec4 history_words(std::span<const std::uint32_t> all, history_format format, std::size_t pixel)
+{
+    const auto words = static_cast<std::size_t>(math<float>::ao_history_words(static_cast<int>(format)));
+    const std::span<const std::uint32_t> at = all.subspan(words * pixel, words);
+    return { at[0], at[1], words == 4 ? at[2] : 0, words == 4 ? at[3] : 0 };
 }
 
 // A frame's camera. The eye is in double, and only differences of eyes are used: scenes may be anywhere.

@@ -8,7 +8,8 @@
 
 namespace ao {
 
-// Resources: real depth(ivec2), vec4 normal(ivec2), vec4 motion(ivec2), uint history(uint), vec2 rotation(ivec2), vec4 tap(uint).
+// Resources: real depth(ivec2), vec4 normal(ivec2), vec4 motion(ivec2), uvec4 history(uint), vec2 rotation(ivec2), vec4
+// tap(uint).
 template <class Real, class Resources>
 struct temporal_pass {
 #include "ao/detail/scope.inc"
@@ -39,9 +40,9 @@ struct temporal_pass {
     {
         return resources.motion(pixel);
     }
-    constexpr uint ao_load_history(uint word)
+    constexpr uvec4 ao_load_history(uint pixel)
     {
-        return resources.history(word);
+        return resources.history(pixel);
     }
     constexpr vec2 ao_load_rotation(ivec2 pixel)
     {
@@ -60,7 +61,7 @@ struct temporal_pass {
     // clang-format on
 };
 
-// Resources: real depth(ivec2), uint history(uint), real row(ivec2).
+// Resources: real depth(ivec2), uvec4 history(uint), real row(ivec2).
 template <class Real, class Resources>
 struct temporal_filter_pass {
 #include "ao/detail/scope.inc"
@@ -75,9 +76,9 @@ struct temporal_filter_pass {
     {
         return resources.depth(pixel);
     }
-    constexpr uint ao_load_history(uint word)
+    constexpr uvec4 ao_load_history(uint pixel)
     {
-        return resources.history(word);
+        return resources.history(pixel);
     }
     constexpr real ao_load_row(ivec2 pixel)
     {

@@ -50,7 +50,7 @@ struct temporal_settings {
     int most_weight = 500;  // w_max, samples, 1 to 4095; precise histories up to 2^20
     // w_max of pixels that move on the picture, samples, 1 or more: what a kernel sees there changes with the view, and every
     // fetch between pixels loses a little.
-    int moving_weight = 128;
+    int moving_weight = 150;
     float adaptive = 0.2F; // c_adaptive, [0, 1]
     float spatial = 0.3F;  // c_spatial, [0, 1]: convergence from which on nothing is filtered
     float rotation = 0.5F; // c_rot, [0, 1]: the pattern is turned from pixel to pixel while conv is less

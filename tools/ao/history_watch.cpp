@@ -24,21 +24,15 @@ struct history_watch::resources {
     float depth(glm::ivec2 p) const { return of->depth_.at(p.x, p.y).x; }
     glm::vec4 normal(glm::ivec2 p) const { return of->normal_.at(p.x, p.y); }
     glm::vec4 motion(glm::ivec2 p) const { return of->motion_.at(p.x, p.y); }
-    std::uint32_t history(std::uint32_t word) const { return of->history_[word]; }
+    glm::uvec4 history(std::uint32_t pixel) const { return history_words(of->history_, of->plan_.settings.format, pixel); }
 };
 
-history_watch::history_watch(const temporal_plan& p)
-    : plan_(p),
-      words_(static_cast<std::size_t>(math<float>::ao_history_words(static_cast<int>(p.settings.format)))),
-      history_(history_bytes(p) / 4)
-{
-}
+history_watch::history_watch(const temporal_plan& p) : plan_(p), history_(history_bytes(p) / 4) {}
 
 math<float>::ao_history history_watch::unpacked(std::span<const std::uint32_t> words, std::size_t pixel) const
 {
-    const std::span<const std::uint32_t> at = words.subspan(words_ * pixel, words_);
-    return math<float>::ao_unpacked_history({ at[0], at[1], words_ == 4 ? at[2] : 0, words_ == 4 ? at[3] : 0 },
-                                            static_cast<int>(plan_.settings.format));
+    const history_format format = plan_.settings.format;
+    return math<float>::ao_unpacked_history(history_words(words, format, pixel), static_cast<int>(format));
 }
 
 void history_watch::make_eye_depth(const temporal_step* linearize, const picture& depth)

@@ -69,7 +69,6 @@ private:
 
     temporal_plan plan_;
     temporal_state state_;
-    std::size_t words_;                // of a pixel
     conformance::values<float> depth_; // as stored, then eye depth
     conformance::values<float> normal_;
     conformance::values<float> motion_;

@@ -21,7 +21,7 @@ struct temporal_kernels {
     }
     static history_reader<Real> history(const temporal_arguments& a)
     {
-        return { reinterpret_cast<const std::byte*>(a.read), 4 * a.history_plane, a.history_words == 4 ? 2 : 1 };
+        return { reinterpret_cast<const std::byte*>(a.read), 4 * a.history_plane, a.history_words };
     }
 
     // Options that are asked per tap or texel are constants.

@@ -9,8 +9,8 @@
 
 namespace ao::cpu::detail {
 
-// A history in memory: not words pixel after pixel as the bodies count them, but all first words, then all second ones, and so
-// on, so that the words of neighbours lie side by side.
+// A history in memory: not words pixel after pixel, but all first words, then all second ones, and so on, so that the words of
+// neighbours lie side by side.
 template <class Real>
 struct history_reader {
     using memory = detail::memory<Real>;
@@ -18,16 +18,16 @@ struct history_reader {
 
     const std::byte* data = nullptr;
     std::size_t plane_bytes = 0;
-    int word_bits = 0; // 2 to the power of it: words of a pixel
+    int words = 0; // of a pixel
 
-    // Precondition: all lanes ask for the same word of their pixels.
+    // What the caller does not read is not loaded.
     template <class Uint>
-    Uint word(Uint index) const
+    glm::vec<4, Uint> at(Uint pixel) const
     {
-        const integer at = integer(index);
-        const int first = memory::first(at);
-        const auto word = static_cast<std::size_t>(first & ((1 << word_bits) - 1));
-        return Uint(memory::load(data + word * plane_bytes, memory::shift_right(at, word_bits)));
+        const auto word = [&](int which) {
+            return Uint(memory::load(data + static_cast<std::size_t>(which < words ? which : 0) * plane_bytes, integer(pixel)));
+        };
+        return { word(0), word(1), word(2), word(3) };
     }
 };
 
@@ -36,6 +36,7 @@ struct temporal_resources {
     using memory = detail::memory<Real>;
     using integer = typename math<Real>::integer;
     using uint = typename math<Real>::uint;
+    using uvec4 = typename math<Real>::uvec4;
     using ivec2 = typename math<Real>::ivec2;
     using vec2 = typename math<Real>::vec2;
     using vec4 = typename math<Real>::vec4;
@@ -57,7 +58,7 @@ struct temporal_resources {
         }
         return motions.normal(pixel); // the other formats are those of normals
     }
-    uint history(uint word) const { return last.word(word); }
+    uvec4 history(uint pixel) const { return last.at(pixel); }
     vec2 rotation(ivec2 texel) const { return vec2(rotation_x.loaded(texel), rotation_y.loaded(texel)); }
     vec4 tap(uint i) const
     {
@@ -82,13 +83,14 @@ struct temporal_resources {
 template <class Real>
 struct temporal_filter_resources {
     using uint = typename math<Real>::uint;
+    using uvec4 = typename math<Real>::uvec4;
     using ivec2 = typename math<Real>::ivec2;
     reader<Real> eye_depth;
     reader<Real> rows;
     history_reader<Real> now;
 
     Real depth(ivec2 pixel) const { return eye_depth.loaded(pixel); }
-    uint history(uint word) const { return now.word(word); }
+    uvec4 history(uint pixel) const { return now.at(pixel); }
     Real row(ivec2 pixel) const { return rows.loaded(pixel); }
 };
 

@@ -8,16 +8,16 @@ layout(constant_id = 9) const bool ao_parallel = false;
 
 layout(binding = 0) uniform sampler2D ao_depth;
 // A buffer texture, as the sequence: with storage buffers a frame of a moving camera takes 1.6 times as long on llvmpipe.
-layout(binding = 4) uniform usamplerBuffer ao_history_words_read;
+layout(binding = 4) uniform usamplerBuffer ao_history_read;
 
 real ao_load_depth(ivec2 pixel)
 {
     return texelFetch(ao_depth, pixel, 0).x;
 }
 
-uint ao_load_history(uint word)
+uvec4 ao_load_history(uint pixel)
 {
-    return texelFetch(ao_history_words_read, int(word)).x;
+    return texelFetch(ao_history_read, int(pixel));
 }
 
 #include "ao/shared/history_load.h"

@@ -49,7 +49,7 @@ void main()
     ivec2 pixel = ivec2(gl_GlobalInvocationID);
     if (pixel.x < int(ao_constants.width) && pixel.y < int(ao_constants.height)) {
         uvec4 words = ao_packed_history(ao_accumulate_pass(ao_constants, pixel), ao_history_format);
-        uint at = ao_history_place(pixel, ao_constants.width);
+        uint at = ao_history_place(pixel, ao_constants.width) * uint(ao_history_words(ao_history_format));
         ao_history_words_written[at] = words.x;
         ao_history_words_written[at + 1] = words.y;
         if (ao_history_words(ao_history_format) == 4) {

@@ -107,8 +107,10 @@ result<temporal_program> temporal::prepare_temporal(const temporal_plan& p)
         return *buffers.failed();
     }
     for (std::size_t i = 0; i < 2; ++i) {
+        const bool precise = p.settings.format == history_format::precise;
+        const std::size_t pixels = static_cast<std::size_t>(f.width) * static_cast<std::size_t>(f.height);
         result<object> texels =
-            make_buffer_texture(gl, "a history", state->histories[i], GL_R32UI, history_bytes(p) / sizeof(GLuint));
+            make_buffer_texture(gl, "a history", state->histories[i], precise ? GL_RGBA32UI : GL_RG32UI, pixels);
         if (!texels) {
             return texels.error();
         }

@@ -30,15 +30,16 @@ layout(binding = 1) uniform texture2D normals;
 layout(binding = 2) uniform texture2D motions;
 layout(binding = 3) uniform textureBuffer rotations;
 layout(binding = 6, r32f) uniform readonly image2D rows;
-layout(binding = 8, std430) readonly buffer taps_block { vec4 taps[]; };
-layout(binding = 9, std430) readonly buffer history_block { uint history[]; };
+// Texels, not storage buffers, which llvmpipe reads word by word.
+layout(binding = 8) uniform textureBuffer taps;
+layout(binding = 9) uniform utextureBuffer history;
 
 vec4 ao_load_normal(ivec2 pixel) { return texelFetch(normals, pixel, 0); }
 vec4 ao_load_motion(ivec2 pixel) { return texelFetch(motions, pixel, 0); }
 vec2 ao_load_rotation(ivec2 texel) { return texelFetch(rotations, texel.y * ao_tile_size + texel.x).xy; }
 real ao_load_row(ivec2 pixel) { return imageLoad(rows, pixel).x; }
-vec4 ao_load_tap(uint index) { return taps[index]; }
-uint ao_load_history(uint word) { return history[word]; }
+vec4 ao_load_tap(uint index) { return texelFetch(taps, int(index)); }
+uvec4 ao_load_history(uint pixel) { return texelFetch(history, int(pixel)); }
 
 #include "ao/shared/history_load.h"
 

@@ -13,7 +13,7 @@ void main()
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (in_picture(pixel, constants.width, constants.height)) {
         uvec4 words = ao_packed_history(ao_accumulate_pass(constants, pixel), ao_history_format);
-        uint place = ao_history_place(pixel, constants.width);
+        uint place = ao_history_place(pixel, constants.width) * uint(ao_history_words(ao_history_format));
         written[place] = words.x;
         written[place + 1] = words.y;
         if (ao_history_words(ao_history_format) == 4) {

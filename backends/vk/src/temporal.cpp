@@ -3,7 +3,6 @@
 #include "support.hpp"
 #include "temporal_state.hpp"
 
-#include <algorithm>
 #include <cassert>
 #include <cstdio>
 #include <new>
@@ -64,11 +63,13 @@ std::optional<error> unsupported(const device& d, const temporal_plan& p)
         }
     }
     const VkPhysicalDeviceLimits& limits = d.properties.limits;
-    const std::size_t taps = sizeof(glm::vec4) * static_cast<std::size_t>(p.settings.period);
-    if (std::max(history_bytes(p), taps) > limits.maxStorageBufferRange) {
-        char text[160];
-        std::snprintf(text, sizeof text, "a history of %dx%d takes %zu bytes, a storage buffer of the Vulkan device at most %u",
-                      f.width, f.height, history_bytes(p), limits.maxStorageBufferRange);
+    // Every device reads 65536 texels of a buffer, the longest period.
+    const std::size_t pixels = static_cast<std::size_t>(f.width) * static_cast<std::size_t>(f.height);
+    if (history_bytes(p) > limits.maxStorageBufferRange || pixels > limits.maxTexelBufferElements) {
+        char text[200];
+        std::snprintf(text, sizeof text,
+                      "a history of %dx%d takes %zu bytes, a storage buffer of the Vulkan device at most %u, and %u texels",
+                      f.width, f.height, history_bytes(p), limits.maxStorageBufferRange, limits.maxTexelBufferElements);
         return error(errc::out_of_memory, text);
     }
     return std::nullopt;
@@ -99,15 +100,26 @@ std::optional<error> make_layouts(const device& d, temporal_program_state& made)
     return std::nullopt;
 }
 
+std::optional<error> make_texels(const device& d, const buffer& from, VkFormat format, VkDeviceSize offset, VkDeviceSize size,
+                                 owned<VkBufferView>& made)
+{
+    VkBufferViewCreateInfo view{};
+    view.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO;
+    view.buffer = from.handle.get();
+    view.format = format;
+    view.offset = offset;
+    view.range = size;
+    AO_VK_CREATE(made, d, BufferView, view);
+    return std::nullopt;
+}
+
 std::optional<error> make_tables(const device& d, const temporal_plan& p, temporal_program_state& made)
 {
     const auto tile = make_rotation_tile(p.settings.seed);
     const std::vector<glm::vec4> taps = make_temporal_taps(p.settings);
     // A multiple of every offset alignment that Vulkan allows.
     static_assert(sizeof(tile) % 256 == 0);
-    made.taps_offset = sizeof(tile);
-    auto tables = make_buffer(d, sizeof(tile) + taps.size() * sizeof(glm::vec4),
-                              VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    auto tables = make_buffer(d, sizeof(tile) + taps.size() * sizeof(glm::vec4), VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
     if (!tables) {
         return tables.error();
     }
@@ -115,27 +127,30 @@ std::optional<error> make_tables(const device& d, const temporal_plan& p, tempor
     if (const auto wrong = write(d, made.tables, 0, std::as_bytes(std::span(tile)))) {
         return wrong;
     }
-    if (const auto wrong = write(d, made.tables, made.taps_offset, std::as_bytes(std::span(taps)))) {
+    if (const auto wrong = write(d, made.tables, sizeof(tile), std::as_bytes(std::span(taps)))) {
         return wrong;
     }
-    VkBufferViewCreateInfo view{};
-    view.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO;
-    view.buffer = made.tables.handle.get();
-    view.format = VK_FORMAT_R32G32_SFLOAT;
-    view.range = sizeof(tile);
-    AO_VK_CREATE(made.rotations, d, BufferView, view);
-    return std::nullopt;
+    if (const auto wrong = make_texels(d, made.tables, VK_FORMAT_R32G32_SFLOAT, 0, sizeof(tile), made.rotations)) {
+        return wrong;
+    }
+    return make_texels(d, made.tables, VK_FORMAT_R32G32B32A32_SFLOAT, sizeof(tile), VK_WHOLE_SIZE, made.taps);
 }
 
 std::optional<error> make_memory(const device& d, const temporal_plan& p, temporal_program_state& made)
 {
     constexpr VkBufferUsageFlags copied = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-    for (buffer& history : made.histories) {
-        auto own = make_buffer(d, history_bytes(p), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | copied, 0);
+    const bool precise = p.settings.format == history_format::precise;
+    for (std::size_t i = 0; i < 2; ++i) {
+        auto own = make_buffer(d, history_bytes(p),
+                               VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | copied, 0);
         if (!own) {
             return own.error();
         }
-        history = std::move(*own);
+        made.histories[i] = std::move(*own);
+        if (const auto wrong = make_texels(d, made.histories[i], precise ? VK_FORMAT_R32G32B32A32_UINT : VK_FORMAT_R32G32_UINT, 0,
+                                           VK_WHOLE_SIZE, made.history_texels[i])) {
+            return wrong;
+        }
     }
     auto constants =
         make_buffer(d, sizeof(temporal_constants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, 0);

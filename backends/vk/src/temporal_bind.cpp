@@ -27,6 +27,7 @@ std::optional<error> wrong_images(const temporal_plan& p, const temporal_images<
 struct set_content {
     std::array<VkDescriptorImageInfo, temporal_slot_count> pictures{};
     std::array<VkDescriptorBufferInfo, temporal_slot_count> buffers{};
+    std::array<VkBufferView, temporal_slot_count> texels{};
 };
 
 VkDescriptorImageInfo own(const picture& p)
@@ -73,24 +74,24 @@ set_content content_of(const temporal_program_state& program, const temporal_ima
         c.pictures[rows_slot] = own(program.rows);
     }
     c.buffers[constants_slot] = whole(program.constants);
-    c.buffers[taps_slot] = { program.tables.handle.get(), program.taps_offset, VK_WHOLE_SIZE };
+    c.texels[rotations_slot] = program.rotations.get();
+    c.texels[taps_slot] = program.taps.get();
     const bool accumulates = type == temporal_pass_type::accumulate;
-    c.buffers[history_slot] = whole(program.histories[static_cast<std::size_t>(accumulates ? 1 - written : written)]);
+    c.texels[history_slot] = program.history_texels[static_cast<std::size_t>(accumulates ? 1 - written : written)].get();
     if (accumulates) {
         c.buffers[written_slot] = whole(program.histories[static_cast<std::size_t>(written)]);
     }
     return c;
 }
 
-void write_set(const device& d, VkDescriptorSet set, const temporal_program_state& program, const set_content& content)
+void write_set(const device& d, VkDescriptorSet set, const set_content& content)
 {
-    const VkBufferView rotations = program.rotations.get();
     std::array<VkWriteDescriptorSet, temporal_slot_count> writes{};
     std::uint32_t count = 0;
     for (std::uint32_t i = 0; i < temporal_slot_count; ++i) {
         const VkDescriptorImageInfo& picture = content.pictures[i];
         const VkDescriptorBufferInfo& buffer = content.buffers[i];
-        if (i != rotations_slot && picture.imageView == VK_NULL_HANDLE && buffer.buffer == VK_NULL_HANDLE) {
+        if (picture.imageView == VK_NULL_HANDLE && buffer.buffer == VK_NULL_HANDLE && content.texels[i] == VK_NULL_HANDLE) {
             continue;
         }
         VkWriteDescriptorSet& write = writes[count++];
@@ -101,7 +102,7 @@ void write_set(const device& d, VkDescriptorSet set, const temporal_program_stat
         write.descriptorType = type_of(static_cast<temporal_slot>(i));
         write.pImageInfo = &picture;
         write.pBufferInfo = &buffer;
-        write.pTexelBufferView = &rotations;
+        write.pTexelBufferView = &content.texels[i];
     }
     d.call.UpdateDescriptorSets(d.host.device, count, writes.data(), 0, nullptr);
 }
@@ -156,11 +157,11 @@ result<temporal_binding> temporal::bind_temporal(temporal_program& program, cons
     }
     for (std::size_t i = 0; i < steps; ++i) {
         for (const int written : { 0, 1 }) {
-            write_set(d, made->sets[set_of(i, written)], from, content_of(from, images, p.steps[i].type, written));
+            write_set(d, made->sets[set_of(i, written)], content_of(from, images, p.steps[i].type, written));
         }
     }
     if (from.copies_depth) {
-        write_set(d, made->sets[2 * steps], from, content_of(from, images, temporal_pass_type::linearize, 0));
+        write_set(d, made->sets[2 * steps], content_of(from, images, temporal_pass_type::linearize, 0));
     }
     return temporal_binding(std::move(made));
 }

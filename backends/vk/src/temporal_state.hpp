@@ -29,11 +29,12 @@ inline constexpr std::uint32_t temporal_inputs = rotations_slot; // sampled
 
 constexpr VkDescriptorType type_of(temporal_slot slot)
 {
-    return slot < temporal_inputs   ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE
-           : slot == rotations_slot ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
-           : slot < constants_slot  ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
-           : slot == constants_slot ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
-                                    : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    return slot < temporal_inputs                      ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE
+           : slot == rotations_slot                    ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
+           : slot < constants_slot                     ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
+           : slot == constants_slot                    ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
+           : slot == taps_slot || slot == history_slot ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
+                                                       : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 }
 
 struct temporal_program_state {
@@ -43,11 +44,12 @@ struct temporal_program_state {
 
     buffer tables; // rotations, then taps
     owned<VkBufferView> rotations;
-    VkDeviceSize taps_offset = 0;
+    owned<VkBufferView> taps;
     buffer constants; // of accumulate; rewritten in every frame's commands
     std::array<buffer, 2> histories;
-    picture eye_depth; // where the plan linearizes or depth is copied
-    picture rows;      // where the plan filters
+    std::array<owned<VkBufferView>, 2> history_texels; // a pixel each
+    picture eye_depth;                                 // where the plan linearizes or depth is copied
+    picture rows;                                      // where the plan filters
     owned<VkDescriptorSetLayout> set_layout;
     owned<VkPipelineLayout> layout;
     std::array<owned<VkPipeline>, 6> pipelines; // by step of the plan

@@ -60,11 +60,8 @@ public:
     std::vector<std::uint32_t>& history() { return histories_[static_cast<std::size_t>(state_.latest)]; }
     typename math<Real>::ao_history history_of(int x, int y) const
     {
-        const auto words = static_cast<std::size_t>(math<Real>::ao_history_words(format()));
-        const std::uint32_t* at =
-            history().data() +
-            words * (static_cast<std::size_t>(y) * static_cast<std::size_t>(linear_.width) + static_cast<std::size_t>(x));
-        return math<Real>::ao_unpacked_history({ at[0], at[1], words == 4 ? at[2] : 0, words == 4 ? at[3] : 0 }, format());
+        const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(linear_.width) + static_cast<std::size_t>(x);
+        return math<Real>::ao_unpacked_history(history_words(history(), plan_.settings.format, pixel), format());
     }
     const temporal_state& state() const { return state_; }
     temporal_plan& plan() { return plan_; }
@@ -86,7 +83,7 @@ private:
         Real depth(glm::ivec2 p) const { return eye_depth().at(p.x, p.y).x; }
         vec4 normal(glm::ivec2 p) const { return of->normal_.at(p.x, p.y); }
         vec4 motion(glm::ivec2 p) const { return of->motion_.at(p.x, p.y); }
-        std::uint32_t history(std::uint32_t word) const { return (*words)[word]; }
+        glm::uvec4 history(std::uint32_t pixel) const { return history_words(*words, of->plan_.settings.format, pixel); }
         glm::vec<2, Real> rotation(glm::ivec2 p) const
         {
             return glm::vec<2, Real>(of->tile_[static_cast<std::size_t>(p.y * tile_size + p.x)]);

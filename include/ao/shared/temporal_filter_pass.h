@@ -1,6 +1,6 @@
 // The spatial filter of temporal ambient occlusion (paper 2, eq. 10 and 11), as a pass along the rows and one along the columns:
 // mean of the neighbours' values by convergence and world distance. It vanishes as the pixel itself converges. Callbacks: real
-// ao_load_depth(ivec2), as in temporal_pass.h; uint ao_load_history(uint): of this frame (history_load.h);
+// ao_load_depth(ivec2), as in temporal_pass.h; uvec4 ao_load_history(uint): of this frame (history_load.h);
 //            real ao_load_row(ivec2): what the first pass returned.
 // Options:   int ao_filter_radius, bool ao_parallel.
 
@@ -29,16 +29,15 @@ AO_PASS real ao_temporal_filter(ao_temporal_filter_constants c, ivec2 pixel, boo
     real own = rows ? h.value : ao_load_row(pixel);
     real share = ao_filter_support(ao_convergence(h.weight, c.most_weight), c.c_spatial);
     mask filtered = share > real(0) && h.depth > real(0);
-    if (!ao_any(filtered)) {
-        return own;
-    }
     AO_PRECISE real support = share * c.support;
     AO_PRECISE real squared_support = support * support;
     real d = mix(real(1), ao_load_depth(pixel), h.depth > real(0));
     vec3 position = ao_filter_position(c, pixel, d);
     real sum = real(0);
     real weights = real(0);
-    for (int i = -ao_filter_radius; i <= ao_filter_radius; ++i) {
+    // Not unrolled: llvmpipe leaves out what a loop does not reach, but not what an if does not.
+    int reach = ao_any(filtered) ? ao_filter_radius : -1;
+    for (int i = -reach; i <= reach; ++i) {
         integer column = pixel.x + integer(rows ? i : 0);
         integer row = pixel.y + integer(rows ? 0 : i);
         mask inside = column >= integer(0) && real(column) < c.width && row >= integer(0) && real(row) < c.height;

@@ -1,7 +1,7 @@
 // Temporal ambient occlusion (paper 2): new samples of this frame are added to what the last frames know of the same surface
 // point. Callbacks: real ao_load_depth(ivec2): eye depth of this frame, 0 or less, NaN or infinite for background;
 //            vec4 ao_load_motion(ivec2): xy in the host's convention, z eye depth in the last frame, 0 where it is not known;
-//            uint ao_load_history(uint): of the last frame (history_load.h);
+//            uvec4 ao_load_history(uint): of the last frame (history_load.h);
 //            vec2 ao_load_rotation(ivec2): from a tile of ao_tile_size squared;
 //            vec4 ao_load_tap(uint): an offset of the sequence, in tangent space (ritschel) or on the unit disc (fox_compton);
 //            and those of normal_pass.h and occlusion_tap.h.
@@ -115,9 +115,9 @@ AO_PASS ao_history ao_recalled_history(ao_temporal_constants c, vec2 centre, ao_
         for (int i = first; i <= last; ++i) {
             real column = min(max(left + real(i), real(0)), c.width - real(1));
             real row = min(max(top + real(j), real(0)), c.height - real(1));
-            vec2 at = ao_history_value_and_depth_at(ivec2(integer(column), integer(row)), c.width);
-            mask usable = at.x >= real(0) && at.x <= real(1) && ao_same_surface(expected, at.y, wide_tolerance);
-            real value = mix(real(0), at.x, usable);
+            ao_history at = ao_history_at(ivec2(integer(column), integer(row)), c.width);
+            mask usable = at.value >= real(0) && at.value <= real(1) && ao_same_surface(expected, at.depth, wide_tolerance);
+            real value = mix(real(0), at.value, usable);
             AO_PRECISE real bilinear = ao_linear_weight(i, across) * ao_linear_weight(j, down);
             AO_PRECISE real next_sum = linear_sum + mix(real(0), bilinear * value, usable);
             AO_PRECISE real next_weight = linear_weight + mix(real(0), bilinear, usable);
@@ -158,7 +158,7 @@ AO_PASS real ao_neighbour_change(ao_temporal_constants c, ao_tap_seen seen, vec3
     AO_PRECISE vec2 centre = vec2(real(seen.texel.x) + real(0.5), real(seen.texel.y) + real(0.5));
     vec3 point = ao_view_point(c.projection, centre, mix(real(1), seen.surface, surface), ao_parallel);
     ao_previous before = ao_previous_of(c, seen.texel, point);
-    real stored = ao_history_depth_at(ivec2(integer(before.pixel.x), integer(before.pixel.y)), c.width);
+    real stored = ao_history_at(ivec2(integer(before.pixel.x), integer(before.pixel.y)), c.width).depth;
     mask usable = c.history > real(0) && stored > real(0) && stored < real(1e30);
     AO_PRECISE real expected = -before.position.z;
     real tolerance = ao_depth_tolerance(expected, c.tolerance, c.tolerance_constant, c.bias_linear, c.bias_quadratic, slope);
@@ -285,11 +285,9 @@ AO_PASS ao_history ao_accumulate_pass(ao_temporal_constants c, ivec2 pixel)
 
     real sum = real(0);
     real confidence = real(1);
-    for (int i = 0; i < ao_most_samples; ++i) {
+    int i = 0;
+    do { // the condition last: llvmpipe runs a body to its end even where no pixel is left
         mask taken = real(i) < wanted;
-        if (!ao_any(taken)) {
-            break;
-        }
         real index = ao_next_index(h.index, real(i), c.period);
         ao_tap_seen seen = ao_look(taps, c.projection, ao_load_tap(uint(index)), bias, c.thickness);
         AO_PRECISE real next = sum + mix(real(0), ao_contribution_of(c, seen, position, normal, bias), taken);
@@ -298,7 +296,8 @@ AO_PASS ao_history ao_accumulate_pass(ao_temporal_constants c, ivec2 pixel)
             real change = ao_neighbour_change(c, seen, position, normal, begun.previous.position, normal_was, bias, begun.slope);
             confidence = mix(confidence, min(confidence, ao_confidence(change, c.steepness)), taken);
         }
-    }
+        ++i;
+    } while (i < ao_most_samples && ao_any(real(i) < wanted));
     real weight = h.weight;
     if (ao_reproject && ao_invalidation == ao_smooth_weight) {
         weight = ao_kept_weight(weight, confidence);
