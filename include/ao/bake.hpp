@@ -59,7 +59,7 @@ struct bake_request {
     std::size_t last_line = bake_all;         // not included; even, or the number of lines
     bake_route route = bake_route::automatic; // over that of the settings
     // Called now and then, by the thread that called, with the share done; false ends the bake.
-    std::function<bool(double)> progress;
+    std::function<bool(double)> progress{};
 };
 
 // Of one vertex, over its directions on the side of the normal.

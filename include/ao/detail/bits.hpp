@@ -71,6 +71,9 @@ template <class Mask>
     }
 constexpr bool any(const Mask& m)
 {
+    if constexpr (requires { Mask::instructions::packed(m.bits); }) {
+        return Mask::instructions::packed(m.bits) != 0;
+    }
     for (int i = 0; i < Mask::width; ++i) {
         if (m[i]) {
             return true;

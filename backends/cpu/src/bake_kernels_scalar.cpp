@@ -1,0 +1,10 @@
+#include "bake_add.hpp"
+
+namespace ao::cpu::detail {
+
+const bake_kernel_table& bake_scalar_kernels()
+{
+    return bake_kernels_over<float>;
+}
+
+} // namespace ao::cpu::detail

@@ -1,0 +1,73 @@
+// Sixteen lanes: AVX-512 F, DQ, BW and VL, for units that alone are compiled for it. Verdicts live in mask registers.
+// Not to be included by others: each such unit has a Tag of its own.
+#pragma once
+
+#include "memory.hpp"
+
+#include "ao/lanes.hpp"
+
+#include <immintrin.h>
+
+namespace {
+
+struct avx512;
+
+} // namespace
+
+template <>
+struct ao::lane_instructions<16, avx512> {
+    using floats = ao::detail::native_vector<float, 16>::type;
+    using words = ao::detail::native_vector<std::int32_t, 16>::type;
+    using unsigned_words = ao::detail::native_vector<std::uint32_t, 16>::type;
+    using mask_bits = __mmask16;
+
+    static mask_bits all(bool b) { return b ? 0xffff : 0; }
+    static bool test(mask_bits m, int i) { return (m >> i & 1) != 0; }
+    static unsigned packed(mask_bits m) { return m; }
+    static mask_bits both(mask_bits a, mask_bits b) { return _kand_mask16(a, b); }
+    static mask_bits either(mask_bits a, mask_bits b) { return _kor_mask16(a, b); }
+    static mask_bits inverse(mask_bits a) { return _knot_mask16(a); }
+    static mask_bits less(floats a, floats b) { return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ); }
+    static mask_bits less_equal(floats a, floats b) { return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ); }
+    static mask_bits equal(floats a, floats b) { return _mm512_cmp_ps_mask(a, b, _CMP_EQ_OQ); }
+    static mask_bits less(words a, words b) { return _mm512_cmplt_epi32_mask(bits(a), bits(b)); }
+    static mask_bits less_equal(words a, words b) { return _mm512_cmple_epi32_mask(bits(a), bits(b)); }
+    static mask_bits equal(words a, words b) { return _mm512_cmpeq_epi32_mask(bits(a), bits(b)); }
+    static mask_bits less(unsigned_words a, unsigned_words b) { return _mm512_cmplt_epu32_mask(bits(a), bits(b)); }
+    static mask_bits less_equal(unsigned_words a, unsigned_words b) { return _mm512_cmple_epu32_mask(bits(a), bits(b)); }
+    static mask_bits equal(unsigned_words a, unsigned_words b) { return _mm512_cmpeq_epi32_mask(bits(a), bits(b)); }
+    static floats select(floats a, floats b, mask_bits m) { return _mm512_mask_blend_ps(m, a, b); }
+    static words select(words a, words b, mask_bits m)
+    {
+        return reinterpret_cast<words>(_mm512_mask_blend_epi32(m, bits(a), bits(b)));
+    }
+    static floats sqrt(floats x) { return _mm512_maskz_sqrt_ps(0xffff, x); }
+
+private:
+    template <class Vector>
+    static __m512i bits(Vector x)
+    {
+        return reinterpret_cast<__m512i>(x);
+    }
+};
+
+template <>
+struct ao::cpu::detail::memory_instructions<16, avx512> {
+    using floats = ao::detail::native_vector<float, 16>::type;
+    using words = ao::detail::native_vector<std::int32_t, 16>::type;
+
+    static words gather(const std::byte* data, words index)
+    {
+        // The unmasked forms of these intrinsics start from an undefined value, of which g++ 12 warns.
+        return reinterpret_cast<words>(
+            _mm512_mask_i32gather_epi32(_mm512_setzero_si512(), 0xffff, reinterpret_cast<__m512i>(index), data, 4));
+    }
+    static bool equal(words a, words b)
+    {
+        return _mm512_cmpneq_epi32_mask(reinterpret_cast<__m512i>(a), reinterpret_cast<__m512i>(b)) == 0;
+    }
+    static floats half(words codes)
+    {
+        return _mm512_maskz_cvtph_ps(0xffff, _mm512_maskz_cvtepi32_epi16(0xffff, reinterpret_cast<__m512i>(codes)));
+    }
+};
