@@ -3,6 +3,7 @@
 
 #include "ao/color.hpp"
 #include "ao/detail/elementary.hpp"
+#include "ao/harmonics.hpp"
 #include "ao/scene.hpp"
 
 #include <array>
@@ -15,15 +16,15 @@ namespace ao {
 // sphere: irradiance / pi, that is convolved with the clamped cosine (Ramamoorthi and Hanrahan, SIGGRAPH 2001).
 constexpr ambient_light ambient_of_harmonics(const std::array<glm::dvec3, 9>& light)
 {
-    constexpr double first = 0.48860251190291992 * 2 / 3;
-    constexpr double second = 1.0925484305920792 / 4;
-    constexpr std::array<double, 9> factors{
-        0.28209479177387814, first, first, first, second, second, 0.31539156525252005 / 4, second, 0.54627421529603959 / 4
-    };
+    // Of z^2 - 1/3, which the harmonics' recurrence has, 3 z^2 - 1 is three times, and xy half of the imaginary part of (x + i
+    // y)^2.
+    constexpr std::array<double, 9> polynomials{ 1, 1, 1, 1, 2, 1, 1.0 / 3, 1, 1 };
+    constexpr std::array<int, 9> degrees{ 0, 1, 1, 1, 2, 2, 2, 2, 2 };
     ambient_light ambient;
     for (std::size_t i = 0; i < 9; ++i) {
         for (int channel = 0; channel < 3; ++channel) {
-            ambient.coefficients[i][channel] = static_cast<float>(light[i][channel] * factors[i]);
+            const double factor = harmonic_table.norm[i] * polynomials[i] * lobe_factor(1, degrees[i]);
+            ambient.coefficients[i][channel] = static_cast<float>(light[i][channel] * factor);
         }
     }
     return ambient;
@@ -45,15 +46,7 @@ ambient_light ambient_of_environment(std::size_t width, std::size_t height, cons
             const double angle = 2 * detail::pi * ((static_cast<double>(column) + 0.5) / static_cast<double>(width) - 0.5);
             const double x = across * detail::sine(angle);
             const double z = -across * detail::cosine(angle);
-            const std::array<double, 9> basis{ 0.28209479177387814,
-                                               0.48860251190291992 * y,
-                                               0.48860251190291992 * z,
-                                               0.48860251190291992 * x,
-                                               1.0925484305920792 * x * y,
-                                               1.0925484305920792 * y * z,
-                                               0.31539156525252005 * (3 * z * z - 1),
-                                               1.0925484305920792 * x * z,
-                                               0.54627421529603959 * (x * x - y * y) };
+            const auto basis = harmonics({ x, y, z }, 2);
             const glm::dvec3 value = light(row, column);
             for (int channel = 0; channel < 3; ++channel) {
                 for (std::size_t i = 0; i < 9; ++i) {
