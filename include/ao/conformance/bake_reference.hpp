@@ -67,7 +67,7 @@ struct bake_ray_reference {
 
 inline bake_sum bake_vertex_reference(const bake_job& job, std::size_t vertex, std::size_t first_line, std::size_t last_line)
 {
-    using pass = bake_pass<float>;
+    using shared = bake_pass<float>;
     bake_sum sum;
     if ((job.mesh.flags[vertex] & bake_unbaked) != 0) {
         return sum;
@@ -77,7 +77,7 @@ inline bake_sum bake_vertex_reference(const bake_job& job, std::size_t vertex, s
     float last_open = 0;
     for (std::size_t i = first_line; i < last_line; ++i) {
         const bake_line line = ray.line(i);
-        const float cosine = pass::ao_bake_cosine(line, job.mesh.vertices[vertex].normal);
+        const float cosine = shared::ao_bake_cosine(line, job.mesh.vertices[vertex].normal);
         const bool both = line.opposite > 0;
         float seen = 0;
         for (const float sign : { 1.0F, -1.0F }) {
@@ -85,21 +85,21 @@ inline bake_sum bake_vertex_reference(const bake_job& job, std::size_t vertex, s
                 continue;
             }
             const float open = ray.open(line, sign);
-            const float weight = pass::ao_bake_weight(line.weight, cosine * sign, job.by_cosine);
-            const float part = pass::ao_bake_part(weight, open);
+            const float weight = shared::ao_bake_weight(line.weight, cosine * sign, job.by_cosine);
+            const float part = shared::ao_bake_part(weight, open);
             sum.all += static_cast<std::int32_t>(weight);
             sum.open += static_cast<std::int32_t>(part);
             sum.count += cosine != 0 ? 1 : 0;
             if (job.settings.bent_normals) {
-                sum.x += static_cast<std::int32_t>(pass::ao_bake_part(part, line.dx * sign));
-                sum.y += static_cast<std::int32_t>(pass::ao_bake_part(part, line.dy * sign));
-                sum.z += static_cast<std::int32_t>(pass::ao_bake_part(part, line.dz * sign));
+                sum.x += static_cast<std::int32_t>(shared::ao_bake_part(part, line.dx * sign));
+                sum.y += static_cast<std::int32_t>(shared::ao_bake_part(part, line.dy * sign));
+                sum.z += static_cast<std::int32_t>(shared::ao_bake_part(part, line.dz * sign));
             }
             seen = open;
         }
         const float counted = both || cosine > 0 ? cosine : 0.0F;
         if (i % 2 == 1 && last_cosine * counted > 0) {
-            sum.changes += static_cast<std::int32_t>(pass::ao_bake_change(last_open, seen, counted, job.by_cosine));
+            sum.changes += static_cast<std::int32_t>(shared::ao_bake_change(last_open, seen, counted, job.by_cosine));
         }
         last_cosine = counted;
         last_open = seen;
