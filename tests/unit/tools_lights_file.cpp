@@ -2,6 +2,7 @@
 #include "scene/lights_file.hpp"
 
 #include "ao/ambient.hpp"
+#include "ao/color.hpp"
 #include "scene/environment.hpp"
 #include "scene/error.hpp"
 #include "scene/images.hpp"
@@ -9,6 +10,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -154,6 +157,42 @@ TEST_CASE("an environment's picture becomes ambient light, linear or sRGB", "[to
     CHECK(failure_of(dir.file("cut.exr", whole.substr(0, whole.size() / 2))) != "no error");
     CHECK(failure_of(dir.file("negative.exr", encode_exr(size, std::vector<glm::vec3>(size.pixels(), glm::vec3(-1.0f)), "RGB")))
               .find("negative") != std::string::npos);
+}
+
+TEST_CASE("an environment's picture is read texel by texel", "[tools][lights_file]")
+{
+    const scratch_directory dir;
+    const extent size{ 5, 3 };
+    std::vector<std::uint8_t> codes;
+    std::vector<glm::vec3> light;
+    for (int i = 0; i < 15; ++i) {
+        codes.insert(codes.end(), { std::uint8_t(i), std::uint8_t(255 - i), std::uint8_t(7 * i) });
+        light.emplace_back(0.5f * float(i), 100.0f, float(15 - i));
+    }
+    const ao::light_picture of_png = load_light_picture(dir.file("l.png", encode_png(size, 3, codes)));
+    const ao::light_picture of_exr = load_light_picture(dir.file("l.exr", encode_exr(size, light, "RGB")));
+    REQUIRE((of_png.width == 5 && of_png.height == 3 && of_png.texels.size() == 15));
+    REQUIRE((of_exr.width == 5 && of_exr.height == 3));
+    CHECK(of_exr.texels == light);
+    for (std::size_t i = 0; i < 15; ++i)
+        CHECK(of_png.texels[i] ==
+              glm::vec3(ao::srgb_table[codes[3 * i]], ao::srgb_table[codes[3 * i + 1]], ao::srgb_table[codes[3 * i + 2]]));
+
+    const auto failure = [](const std::string& path) -> std::string {
+        try {
+            static_cast<void>(load_light_picture(path));
+        } catch (const error& e) {
+            return e.what();
+        }
+        return "no error";
+    };
+    CHECK(failure((dir.path / "missing.hdr").string()).find("no such file") != std::string::npos);
+    CHECK(failure(dir.file("text.hdr", "hello")).find("not a picture") != std::string::npos);
+    CHECK(failure(dir.file("nan.exr", encode_exr(size, std::vector<glm::vec3>(15, glm::vec3(std::nanf(""))), "RGB")))
+              .find("not finite") != std::string::npos);
+    const extent wide{ 16385, 1 };
+    CHECK(failure(dir.file("wide.png", encode_png(wide, 3, std::vector<std::uint8_t>(3 * 16385)))).find("sides are 1 to 16384") !=
+          std::string::npos);
 }
 
 TEST_CASE("the documented lights load", "[tools][lights_file]")
