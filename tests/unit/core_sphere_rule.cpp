@@ -171,7 +171,11 @@ TEST_CASE("Lebedev's rules are exact for every harmonic up to their order and fa
           "[core][rule]")
 {
     for (const ao::lebedev_design& design : ao::lebedev_designs) {
-        for (const ao::rotation3& rotation : { ao::no_rotation, ao::generic_rotation, ao::rotation_of_index(7) }) {
+        std::vector<ao::rotation3> rotations{ ao::no_rotation, ao::generic_rotation };
+        if (design.order < 60) {
+            rotations.push_back(ao::rotation_of_index(7));
+        }
+        for (const ao::rotation3& rotation : rotations) {
             const auto rule = ao::lebedev_rule(design.order, rotation, ao::negative_weights::allowed);
             REQUIRE(rule);
             INFO("order " << design.order);
