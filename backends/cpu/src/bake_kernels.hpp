@@ -90,6 +90,7 @@ struct bake_raster_memory {
     std::size_t second_count = 0;
     int rows = 0;
     int columns = 0;
+    int tiles_across = 1; // and down
 };
 
 // Memory of a thread for bake_kernel_table::brute: the triangles as a line sees them, nine arrays.

@@ -136,8 +136,9 @@ bake_line_memory::bake_line_memory(const bake_task& task, bool with_raster)
     raster.tiles = words(receivers);
     // Rows about as high as triangles are, columns finer: measured.
     const double side = std::sqrt(static_cast<double>(receivers));
-    raster.rows = std::clamp(static_cast<int>(side * 0.7), 1, 4096);
+    raster.rows = std::clamp(static_cast<int>(side * 0.3), 1, 4096);
     raster.columns = std::clamp(static_cast<int>(side * 2.0), 1, 8192);
+    raster.tiles_across = std::clamp(static_cast<int>(side * 0.4), 1, 64);
     raster.first = words(2 * (static_cast<std::size_t>(raster.rows) * static_cast<std::size_t>(raster.columns) + 1) + 2);
     raster.tile_depths = floats(tile_floats);
     hit_.resize(samples / 64 + 4);

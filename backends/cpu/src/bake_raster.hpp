@@ -16,9 +16,9 @@ namespace ao::cpu::detail {
 
 // Groups of samples: those that look along d, and those that look along -d.
 inline constexpr int bake_groups = 2;
-// Tiles across the grid, each way; one more row and column around them.
-inline constexpr int bake_tiles = 64;
-inline constexpr int bake_tile_pitch = bake_tiles + 1;
+// Tiles across the grid, each way, at most; one more row and column around them.
+inline constexpr int bake_most_tiles = 64;
+inline constexpr int bake_tile_pitch = bake_most_tiles + 1;
 
 template <class Real>
 struct bake_raster {
@@ -40,16 +40,17 @@ struct bake_raster {
         float to_tile_row;
         int columns;
         int rows;
+        int tiles;
 
         static integer place(Real x, float first, float scale, int count)
         {
             const Real cells = (x - Real(first)) * Real(scale);
-            return w::whole(reals::min(reals::max(cells, Real(0.0F)), Real(static_cast<float>(count - 1))));
+            return w::whole(w::min(w::max(cells, Real(0.0F)), Real(static_cast<float>(count - 1))));
         }
         integer column(Real u) const { return place(u, left, to_column, columns); }
         integer row(Real v) const { return place(v, top, to_row, rows); }
-        integer tile_column(Real u) const { return place(u, left, to_tile_column, bake_tiles); }
-        integer tile_row(Real v) const { return place(v, top, to_tile_row, bake_tiles); }
+        integer tile_column(Real u) const { return place(u, left, to_tile_column, tiles); }
+        integer tile_row(Real v) const { return place(v, top, to_tile_row, tiles); }
     };
 
     // A block of triangles, each a lane, made ready for the starts.
@@ -57,19 +58,18 @@ struct bake_raster {
         float au[width]; // the first corner, lattice steps, and its depth
         float aw[width];
         float ad[width];
-        float bu[width]; // the others against it, so that the area is not negative
-        float bw[width];
-        float cu[width];
-        float cw[width];
-        float bd[width];
-        float cd[width];
-        float area[width];
-        float edge_error[width];
+        // Shares of the second and third corner in what lies x, y from the first, and its depth, are linear in x and y.
+        float second_x[width];
+        float second_y[width];
+        float third_x[width];
+        float third_y[width];
+        float depth_x[width];
+        float depth_y[width];
+        float share_error[width];
         float depth_error[width];
-        std::int32_t first_column[width];
-        std::int32_t last_column[width];
-        std::int32_t first_row[width];
-        std::int32_t last_row[width];
+        std::int32_t first_cell[width]; // of the first row
+        std::int32_t last_cell[width];  // one past the last, of the first row
+        std::int32_t more_rows[width];  // after the first
     };
 
     static void see(const bake_line& line, const bake_vectors& from, std::size_t count, const bake_seen& to)
@@ -102,24 +102,25 @@ struct bake_raster {
         for (std::size_t i = 0; i < r.count; i += step) {
             const Real u = w::load(m.starts.u + i);
             const Real v = w::load(m.starts.w + i);
-            left = reals::min(left, u);
-            right = reals::max(right, u);
-            top = reals::min(top, v);
-            bottom = reals::max(bottom, v);
+            left = w::min(left, u);
+            right = w::max(right, u);
+            top = w::min(top, v);
+            bottom = w::max(bottom, v);
             const typename pass::vec3 normal(w::load(r.normals.x + i), w::load(r.normals.y + i), w::load(r.normals.z + i));
             w::store(view.cosine + i, pass::ao_bake_cosine(l, normal));
         }
         grid g{};
         g.columns = m.columns;
         g.rows = m.rows;
+        g.tiles = m.tiles_across;
         g.left = w::least(left);
         g.top = w::least(top);
         const float across = w::greatest(right) - g.left + 1.0F;
         const float down = w::greatest(bottom) - g.top + 1.0F;
         g.to_column = static_cast<float>(g.columns) / across;
         g.to_row = static_cast<float>(g.rows) / down;
-        g.to_tile_column = static_cast<float>(bake_tiles) / across;
-        g.to_tile_row = static_cast<float>(bake_tiles) / down;
+        g.to_tile_column = static_cast<float>(g.tiles) / across;
+        g.to_tile_row = static_cast<float>(g.tiles) / down;
         return g;
     }
 
@@ -218,8 +219,8 @@ struct bake_raster {
         }
         restore_firsts(m, group_pitch, cells);
         // A tile knows of its right and lower neighbours, too.
-        for (int y = 0; y < bake_tiles; ++y) {
-            for (int x = 0; x < bake_tiles; ++x) {
+        for (int y = 0; y < g.tiles; ++y) {
+            for (int x = 0; x < g.tiles; ++x) {
                 const int at = y * bake_tile_pitch + x;
                 for (const int next : { at + 1, at + bake_tile_pitch, at + bake_tile_pitch + 1 }) {
                     lowest[at] = lowest[next] < lowest[at] ? lowest[next] : lowest[at];
@@ -256,12 +257,12 @@ struct bake_raster {
             v[k] = w::gather(m.points.w, corner);
             d[k] = w::gather(m.points.d, corner);
         }
-        const Real left = reals::min(reals::min(u[0], u[1]), u[2]);
-        const Real right = reals::max(reals::max(u[0], u[1]), u[2]);
-        const Real top = reals::min(reals::min(v[0], v[1]), v[2]);
-        const Real bottom = reals::max(reals::max(v[0], v[1]), v[2]);
-        const Real low = reals::min(reals::min(d[0], d[1]), d[2]);
-        const Real high = reals::max(reals::max(d[0], d[1]), d[2]);
+        const Real left = w::min(w::min(u[0], u[1]), u[2]);
+        const Real right = w::max(w::max(u[0], u[1]), u[2]);
+        const Real top = w::min(w::min(v[0], v[1]), v[2]);
+        const Real bottom = w::max(w::max(v[0], v[1]), v[2]);
+        const Real low = w::min(w::min(d[0], d[1]), d[2]);
+        const Real high = w::max(w::max(d[0], d[1]), d[2]);
 
         // What is not above the lowest start of its tiles that looks up stands before none of them, to the last bit.
         const integer tile_column = g.tile_column(left);
@@ -283,45 +284,51 @@ struct bake_raster {
         const mask turned = area < Real(0.0F);
         const Real bd = d[1] - d[0];
         const Real cd = d[2] - d[0];
-        const Real area_size = reals::abs(area);
-        // Bounds of rounding (docs/numerics.md, "Per vertex"). Starts looked at are within the box and a cell around it.
+        // Bounds of rounding (docs/numerics.md, "Per vertex"). Starts looked at are within the box and a cell around it, or
+        // farther and clearly outside.
         constexpr float unit = 1.1920928955078125e-7F; // 2^-23
         const Real across = right - left + Real(1.01F / g.to_column);
         const Real down = bottom - top + Real(1.01F / g.to_row);
-        const Real longest_u = reals::max(reals::abs(bu), reals::abs(cu));
-        const Real longest_v = reals::max(reals::abs(bv), reals::abs(cv));
-        const Real edge_error = Real(8.0F * unit) * (across * longest_v + down * longest_u);
-        const Real depth = reals::max(reals::abs(bd), reals::abs(cd));
-        const Real depth_error = Real(4.0F) * depth * (Real(8.0F * unit) * area_size + Real(2.0F) * edge_error);
-        // Slivers: nothing is certain.
-        const mask thin = area_size < Real(64.0F) * edge_error;
+        const Real longest_u = w::max(reals::abs(bu), reals::abs(cu));
+        const Real longest_v = w::max(reals::abs(bv), reals::abs(cv));
+        const Real edge_error = Real(16.0F * unit) * (across * longest_v + down * longest_u);
+        // Slivers: nothing is certain, all is possible.
+        const mask thin = reals::abs(area) < Real(64.0F) * edge_error;
         if (task.options.front) {
             along = along && (turned || thin);
             against = against && (!turned || thin);
         }
+        const Real inverse = reals::select(Real(1.0F) / area, Real(0.0F), thin);
+        const Real share_error = edge_error * reals::abs(inverse);
+        const Real depth = w::max(reals::abs(bd), reals::abs(cd));
+        const Real depth_error = depth * (Real(64.0F * unit) + Real(8.0F) * share_error);
+        const Real second_x = cv * inverse;
+        const Real second_y = -(cu * inverse);
+        const Real third_x = -(bv * inverse);
+        const Real third_y = bu * inverse;
 
         w::store(b.au, u[0]);
         w::store(b.aw, v[0]);
         w::store(b.ad, d[0]);
-        w::store(b.bu, reals::select(bu, cu, turned));
-        w::store(b.bw, reals::select(bv, cv, turned));
-        w::store(b.cu, reals::select(cu, bu, turned));
-        w::store(b.cw, reals::select(cv, bv, turned));
-        w::store(b.bd, reals::select(bd, cd, turned));
-        w::store(b.cd, reals::select(cd, bd, turned));
-        w::store(b.area, area_size);
-        w::store(b.edge_error, reals::select(edge_error, Real(1e30F), thin));
+        w::store(b.second_x, second_x);
+        w::store(b.second_y, second_y);
+        w::store(b.third_x, third_x);
+        w::store(b.third_y, third_y);
+        w::store(b.depth_x, second_x * bd + third_x * cd);
+        w::store(b.depth_y, second_y * bd + third_y * cd);
+        w::store(b.share_error, reals::select(share_error, Real(1e30F), thin));
         w::store(b.depth_error, reals::select(depth_error, Real(1e30F), thin));
-        w::store(b.first_column, g.column(left));
-        w::store(b.last_column, g.column(right));
-        w::store(b.first_row, g.row(top));
-        w::store(b.last_row, g.row(bottom));
+        const integer first_row = g.row(top);
+        const integer row_start = first_row * integer(g.columns);
+        w::store(b.first_cell, row_start + g.column(left));
+        w::store(b.last_cell, row_start + g.column(right) + integer(1));
+        w::store(b.more_rows, g.row(bottom) - first_row);
         return { w::packed(along), w::packed(against) };
     }
 
-    // The shared predicate for the samples at `at`.
-    static unsigned exactly(const bake_task& task, const bake_raster_memory& m, std::size_t triangle, std::size_t at, bool along,
-                            unsigned lanes)
+    // The shared predicate for the samples at `at`. Rare, and its registers are not to be the inner loop's.
+    [[gnu::noinline]] static unsigned exactly(const bake_task& task, const bake_raster_memory& m, std::size_t triangle,
+                                              std::size_t at, bool along, unsigned lanes)
     {
         const auto point = [&](int k) {
             const std::int32_t p = task.occluders.corners[k][triangle];
@@ -348,83 +355,93 @@ struct bake_raster {
         return lanes;
     }
 
-    // One triangle of a block against the starts of a group.
+    // What the inner loop reads.
+    struct samples {
+        const float* u;
+        const float* w;
+        const float* d;
+        const std::int32_t* first; // of the group
+    };
+
+    // One triangle of a block against samples begin ... end - 1.
     template <bool Along, bool Plain>
-    static void cover(const bake_task& task, const grid& g, bake_raster_memory& m, const block& b, int lane, std::size_t triangle,
-                      const std::int32_t* first)
+    static void cover(const bake_task& task, const bake_raster_memory& m, const samples& s, const block& b, unsigned lane,
+                      std::size_t triangle, std::int32_t begin, std::int32_t end)
     {
-        const Real au(b.au[lane]);
-        const Real aw(b.aw[lane]);
-        const Real ad(b.ad[lane]);
-        const Real bu(b.bu[lane]);
-        const Real bw(b.bw[lane]);
-        const Real cu(b.cu[lane]);
-        const Real cw(b.cw[lane]);
-        const Real bd(b.bd[lane]);
-        const Real cd(b.cd[lane]);
-        const Real area(b.area[lane]);
-        const Real edge_error(b.edge_error[lane]);
-        const Real depth_error(b.depth_error[lane]);
-        const Real edge_least = -edge_error;
-        const Real depth_least = -depth_error;
-        const std::int32_t left = b.first_column[lane];
-        const std::int32_t right = b.last_column[lane] + 1;
-        for (std::int32_t row = b.first_row[lane]; row <= b.last_row[lane]; ++row) {
-            const std::int32_t begin = first[row * g.columns + left];
-            const std::int32_t end = first[row * g.columns + right];
-            for (std::int32_t at = begin; at < end; at += width) {
-                const auto here = static_cast<std::size_t>(at);
-                const Real x = w::load(m.samples.u + here) - au;
-                const Real y = w::load(m.samples.w + here) - aw;
-                const Real z = w::load(m.samples.d + here) - ad;
-                const Real c = bu * y - bw * x;
-                const Real e = x * cw - y * cu;
-                const Real a = area - e - c;
-                const Real least = reals::min(reals::min(a, e), c);
-                const Real interpolated = e * bd + c * cd;
-                const Real below = area * z;
-                const Real moment = Along ? interpolated - below : below - interpolated;
-                mask maybe = least >= edge_least && moment >= depth_least;
-                const std::int32_t left_over = end - at;
-                unsigned lanes = w::packed(maybe);
-                lanes &= left_over >= width ? ~0U : (1U << left_over) - 1U;
-                if (lanes == 0) {
-                    continue;
-                }
-                unsigned hit = 0;
-                if constexpr (Plain) {
-                    hit = lanes & w::packed(least > edge_error && moment > depth_error);
-                }
-                if (hit != lanes) {
-                    hit |= exactly(task, m, triangle, here, Along, lanes & ~hit);
-                }
-                const std::uint64_t word_bits = static_cast<std::uint64_t>(hit) << (here & 31U);
-                std::uint64_t word = 0;
-                char* const word_at = reinterpret_cast<char*>(m.hit) + (here >> 5U) * 4;
-                std::memcpy(&word, word_at, 8);
-                word |= word_bits;
-                std::memcpy(word_at, &word, 8);
+        do {
+            const auto here = static_cast<std::size_t>(begin);
+            const Real x = w::load(s.u + here) - Real(b.au[lane]);
+            const Real y = w::load(s.w + here) - Real(b.aw[lane]);
+            const Real above = Real(b.ad[lane]) - w::load(s.d + here);
+            const Real second = w::fused(x, Real(b.second_x[lane]), y * Real(b.second_y[lane]));
+            const Real third = w::fused(x, Real(b.third_x[lane]), y * Real(b.third_y[lane]));
+            const Real least = w::min(Real(1.0F) - second - third, w::min(second, third));
+            const Real depth = w::fused(x, Real(b.depth_x[lane]), w::fused(y, Real(b.depth_y[lane]), above));
+            const Real share_error(b.share_error[lane]);
+            const Real depth_error(b.depth_error[lane]);
+            const mask inside = least >= -share_error;
+            // Lanes beyond the end are starts of the group as well, or far from everything.
+            const unsigned lanes = w::packed(inside && (Along ? depth >= -depth_error : depth <= depth_error));
+            begin += width;
+            if (lanes == 0) [[likely]] {
+                continue;
             }
+            unsigned hit = 0;
+            if constexpr (Plain) {
+                hit = lanes & w::packed(least > share_error && (Along ? depth > depth_error : depth < -depth_error));
+            }
+            if (hit != lanes) [[unlikely]] {
+                hit |= exactly(task, m, triangle, here, Along, lanes & ~hit);
+            }
+            std::uint64_t word = 0;
+            char* const word_at = reinterpret_cast<char*>(m.hit) + (here >> 5U) * 4;
+            std::memcpy(&word, word_at, 8);
+            word |= static_cast<std::uint64_t>(hit) << (here & 31U);
+            std::memcpy(word_at, &word, 8);
+        } while (begin < end);
+    }
+
+    // The triangles of a block, by lanes, against the samples of a group: row by row of all of them, so that few branches
+    // surprise.
+    template <bool Along, bool Plain>
+    static void cover_block(const bake_task& task, const grid& g, const bake_raster_memory& m, const samples& s, const block& b,
+                            std::size_t first_triangle, unsigned lanes)
+    {
+        alignas(64) std::int32_t begin[width];
+        alignas(64) std::int32_t end[width];
+        integer first_cell = w::load(b.first_cell);
+        integer last_cell = w::load(b.last_cell);
+        const integer more_rows = w::load(b.more_rows);
+        for (int row = 0; lanes != 0; ++row) {
+            const integer from = w::gather(s.first, first_cell);
+            const integer to = w::gather(s.first, last_cell);
+            w::store(begin, from);
+            w::store(end, to);
+            for (unsigned rest = lanes & w::packed(from < to); rest != 0; rest &= rest - 1) {
+                const auto lane = static_cast<unsigned>(__builtin_ctz(rest));
+                cover<Along, Plain>(task, m, s, b, lane, first_triangle + lane, begin[lane], end[lane]);
+            }
+            lanes &= w::packed(integer(row) < more_rows);
+            // Lanes that have no more rows stay where they are.
+            const integer down = pick(integer(0), integer(g.columns), integer(row) < more_rows);
+            first_cell = first_cell + down;
+            last_cell = last_cell + down;
         }
     }
 
     template <bool Plain>
-    static void cover_all(const bake_task& task, const grid& g, bake_raster_memory& m)
+    static void cover_all(const bake_task& task, const grid& g, const bake_raster_memory& m)
     {
         const std::int32_t group_pitch = g.rows * g.columns + 1;
+        const samples along{ m.samples.u, m.samples.w, m.samples.d, m.first };
+        const samples against{ m.samples.u, m.samples.w, m.samples.d, m.first + group_pitch };
         block b;
         const std::size_t count = task.occluders.triangle_count;
         for (std::size_t i = 0; i < count; i += step) {
             const relevant lanes = prepare(task, g, m, i, b);
             const unsigned whole = count - i >= step ? ~0U : (1U << (count - i)) - 1U;
-            for (unsigned rest = lanes.along & whole; rest != 0; rest &= rest - 1) {
-                const int lane = __builtin_ctz(rest);
-                cover<true, Plain>(task, g, m, b, lane, i + static_cast<std::size_t>(lane), m.first);
-            }
-            for (unsigned rest = lanes.against & whole; rest != 0; rest &= rest - 1) {
-                const int lane = __builtin_ctz(rest);
-                cover<false, Plain>(task, g, m, b, lane, i + static_cast<std::size_t>(lane), m.first + group_pitch);
-            }
+            cover_block<true, Plain>(task, g, m, along, b, i, lanes.along & whole);
+            cover_block<false, Plain>(task, g, m, against, b, i, lanes.against & whole);
         }
     }
 

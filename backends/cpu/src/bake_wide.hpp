@@ -27,7 +27,11 @@ struct wide<float> {
     static void store(float* to, float x) { *to = x; }
     static void store(std::int32_t* to, integer x) { *to = x; }
     static float gather(const float* from, integer i) { return from[i]; }
+    static integer gather(const std::int32_t* from, integer i) { return from[i]; }
     static unsigned packed(bool m) { return m ? 1U : 0U; }
+    static float min(float a, float b) { return b < a ? b : a; }
+    static float max(float a, float b) { return a < b ? b : a; }
+    static float fused(float a, float b, float c) { return a * b + c; }
     static integer whole(float x) { return static_cast<integer>(x); }
     static float least(float x) { return x; }
     static float greatest(float x) { return x; }
@@ -39,6 +43,7 @@ struct wide<lanes<float, N, Tag>> {
     using real = lanes<float, N, Tag>;
     using integer = lanes<std::int32_t, N, Tag>;
     using mask = lane_mask<N, Tag>;
+    using instructions = lane_instructions<N, Tag>;
 
     static real load(const float* from)
     {
@@ -61,9 +66,12 @@ struct wide<lanes<float, N, Tag>> {
         std::memcpy(&x.v, &words, sizeof(x.v));
         return x;
     }
+    static integer gather(const std::int32_t* from, integer i)
+    {
+        return integer(memory_instructions<N, Tag>::gather(reinterpret_cast<const std::byte*>(from), i.v));
+    }
     static unsigned packed(mask m)
     {
-        using instructions = lane_instructions<N, Tag>;
         if constexpr (requires { instructions::packed(m.bits); }) {
             return instructions::packed(m.bits);
         }
@@ -73,6 +81,35 @@ struct wide<lanes<float, N, Tag>> {
                 bits |= m[i] ? 1U << i : 0U;
             }
             return bits;
+        }
+    }
+    // Of numbers; of zeros either, in one instruction where there is one.
+    static real min(real a, real b)
+    {
+        if constexpr (requires { instructions::least(a.v, b.v); }) {
+            return real(instructions::least(a.v, b.v));
+        }
+        else {
+            return real_traits<real>::min(a, b);
+        }
+    }
+    static real max(real a, real b)
+    {
+        if constexpr (requires { instructions::greatest(a.v, b.v); }) {
+            return real(instructions::greatest(a.v, b.v));
+        }
+        else {
+            return real_traits<real>::max(a, b);
+        }
+    }
+    // a b + c, rounded once or twice: only for what an exact test follows.
+    static real fused(real a, real b, real c)
+    {
+        if constexpr (requires { instructions::fused(a.v, b.v, c.v); }) {
+            return real(instructions::fused(a.v, b.v, c.v));
+        }
+        else {
+            return a * b + c;
         }
     }
     static integer whole(real x) { return integer(x); }

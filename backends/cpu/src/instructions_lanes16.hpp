@@ -23,6 +23,9 @@ struct ao::lane_instructions<16, avx512> {
 
     static mask_bits all(bool b) { return b ? 0xffff : 0; }
     static bool test(mask_bits m, int i) { return (m >> i & 1) != 0; }
+    static floats least(floats a, floats b) { return _mm512_maskz_min_ps(0xffff, a, b); }
+    static floats greatest(floats a, floats b) { return _mm512_maskz_max_ps(0xffff, a, b); }
+    static floats fused(floats a, floats b, floats c) { return _mm512_fmadd_ps(a, b, c); }
     static unsigned packed(mask_bits m) { return m; }
     static mask_bits both(mask_bits a, mask_bits b) { return _kand_mask16(a, b); }
     static mask_bits either(mask_bits a, mask_bits b) { return _kor_mask16(a, b); }

@@ -26,6 +26,8 @@ struct ao::lane_instructions<4, sse2> {
 
     static mask_bits all(bool b) { return mask_bits{} - (b ? 1 : 0); }
     static bool test(mask_bits m, int i) { return m[i] != 0; }
+    static floats least(floats a, floats b) { return _mm_min_ps(a, b); }
+    static floats greatest(floats a, floats b) { return _mm_max_ps(a, b); }
     static unsigned packed(mask_bits m) { return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<floats>(m))); }
     static mask_bits both(mask_bits a, mask_bits b) { return a & b; }
     static mask_bits either(mask_bits a, mask_bits b) { return a | b; }
