@@ -33,12 +33,13 @@ inline constexpr std::size_t max_harmonics = (max_harmonic_order + 1) * (max_har
 // Precondition: 0 <= l, |m| <= l.
 constexpr std::size_t harmonic_index(int l, int m)
 {
-    return static_cast<std::size_t>(l * (l + 1) + m);
+    const int index = l * (l + 1) + m;
+    return static_cast<std::size_t>(index);
 }
 
 constexpr std::size_t harmonic_count(int order)
 {
-    return static_cast<std::size_t>((order + 1) * (order + 1));
+    return harmonic_index(order, order) + 1;
 }
 
 // Factors g_lm of the recurrence and N_lm of ao/shared/harmonics.h.

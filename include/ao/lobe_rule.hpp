@@ -41,6 +41,7 @@ struct gauss_node {
 inline std::vector<gauss_node> gauss_jacobi(double a, int count)
 {
     std::vector<jacobi_step> steps;
+    steps.reserve(static_cast<std::size_t>(count));
     for (int k = 0; k < count; ++k) {
         steps.push_back(jacobi_at(a, k));
     }

@@ -7,12 +7,12 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace ao {
@@ -22,12 +22,7 @@ namespace detail {
 // Pairs of antipodes of equal weight brought together, if the rule consists of such pairs; else it stays as it is.
 inline void pair_antipodes(sphere_rule& rule)
 {
-    struct point {
-        direction3 axis; // of the pair
-        double weight;
-
-        auto operator<=>(const point&) const = default;
-    };
+    using point = std::pair<direction3, double>; // axis of the pair, weight
     std::vector<point> points;
     std::vector<point> opposites;
     for (std::size_t i = 0; i < rule.size(); ++i) {
@@ -35,7 +30,7 @@ inline void pair_antipodes(sphere_rule& rule)
         // + 0.0: -0 and 0 are one coordinate
         const direction3 there{ d[0] + 0.0, d[1] + 0.0, d[2] + 0.0 };
         const direction3 back{ 0.0 - d[0], 0.0 - d[1], 0.0 - d[2] };
-        (there < back ? opposites : points).push_back({ there < back ? back : there, rule.weights[i] });
+        (there < back ? opposites : points).emplace_back(there < back ? back : there, rule.weights[i]);
     }
     std::sort(points.begin(), points.end());
     std::sort(opposites.begin(), opposites.end());
@@ -43,8 +38,8 @@ inline void pair_antipodes(sphere_rule& rule)
         return;
     }
     rule = { .directions = {}, .weights = {}, .antipodal = true, .order = 1 };
-    for (const point& p : points) {
-        append_pair(rule, p.axis, p.weight);
+    for (const auto& [axis, weight] : points) {
+        append_pair(rule, axis, weight);
     }
 }
 

@@ -95,7 +95,8 @@ TEST_CASE("A light picture is read bilinearly, around and up to its poles", "[co
         const ao::light_picture picture = random_picture(width, height);
         const auto texel = [&](int column, int row) {
             const int y = std::clamp(row, 0, height - 1);
-            return glm::dvec3(picture.texels[static_cast<std::size_t>(y * width + ((column % width) + width) % width)]);
+            const int index = y * width + ((column % width) + width) % width;
+            return glm::dvec3(picture.texels[static_cast<std::size_t>(index)]);
         };
         for (int y = 0; y <= 4 * height; ++y) {
             for (int x = 0; x <= 4 * width; ++x) {

@@ -20,7 +20,7 @@ using batch = std::array<double, 8>;
 // usual recurrence of normalised Legendre functions (Press et al., Numerical Recipes, 6.7), eight points at a time.
 class harmonic_sums {
 public:
-    explicit harmonic_sums(int top) : top_(top), sums_(static_cast<std::size_t>((top + 1) * (top + 1)))
+    explicit harmonic_sums(int top) : top_(top), sums_(place(top, top) + 1)
     {
         for (int m = 0; m <= top; ++m) {
             for (int l = m + 1; l <= top; ++l) {
@@ -50,7 +50,7 @@ public:
         }
     }
 
-    double at(int l, int m) const { return sums_[static_cast<std::size_t>(l * (l + 1) + m)]; }
+    double at(int l, int m) const { return sums_[place(l, m)]; }
 
     // The largest sum of degrees first ... last, but for the constant's deviation from 1.
     double worst(int first, int last) const
@@ -65,6 +65,12 @@ public:
     }
 
 private:
+    static std::size_t place(int l, int m)
+    {
+        const int index = l * (l + 1) + m;
+        return static_cast<std::size_t>(index);
+    }
+
     void add(const batch& x, const batch& y, const batch& z, const batch& weight)
     {
         batch cosine = weight; // weight times real and imaginary part of (x + i y)^m
@@ -82,9 +88,9 @@ private:
                     even += cosine[i] * here[i];
                     odd += sine[i] * here[i];
                 }
-                sums_[static_cast<std::size_t>(l * (l + 1) + m)] += even;
+                sums_[place(l, m)] += even;
                 if (m > 0) {
-                    sums_[static_cast<std::size_t>(l * (l + 1) - m)] += odd;
+                    sums_[place(l, -m)] += odd;
                 }
                 if (l == top_) {
                     break;
@@ -217,7 +223,8 @@ TEST_CASE("No rule that is not turned on purpose has points on the planes along 
         double nearest = 1;
         for (const ao::direction3& d : rule.directions) {
             for (int code = 14; code < 27; ++code) {
-                const ao::direction3 normal{ code / 9 - 1.0, code / 3 % 3 - 1.0, code % 3 - 1.0 };
+                const std::array<int, 3> digits{ code / 9, code / 3 % 3, code % 3 };
+                const ao::direction3 normal{ digits[0] - 1.0, digits[1] - 1.0, digits[2] - 1.0 };
                 nearest = std::min(nearest, std::abs(dot(d, normal)));
             }
         }

@@ -4,8 +4,7 @@
 
 AO_FN vec3 ao_add_scaled(vec3 sum, vec4 coefficient, real factor)
 {
-    AO_PRECISE vec3 next =
-        vec3(sum.x + coefficient.x * factor, sum.y + coefficient.y * factor, sum.z + coefficient.z * factor);
+    AO_PRECISE vec3 next = vec3(sum.x + coefficient.x * factor, sum.y + coefficient.y * factor, sum.z + coefficient.z * factor);
     return next;
 }
 
