@@ -98,7 +98,7 @@ TEST_CASE("every route gives the reference's bits", "[bake][cpu]")
             continue;
         }
         ao::cpu::baker baker = make(lanes, 2);
-        for (const ao::bake_route route : { ao::bake_route::brute, ao::bake_route::raster }) {
+        for (const ao::bake_route route : { ao::bake_route::brute, ao::bake_route::raster, ao::bake_route::hierarchy }) {
             CAPTURE(name_of(lanes), static_cast<int>(route));
             check_same(*job, baker, route, *wanted);
         }

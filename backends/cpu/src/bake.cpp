@@ -1,6 +1,7 @@
 #include "ao/cpu/bake.hpp"
 
 #include "bake_lines.hpp"
+#include "bake_rays.hpp"
 #include "threads.hpp"
 #include "width.hpp"
 
@@ -64,7 +65,8 @@ int baker::threads() const
 
 bool baker::has(bake_route route)
 {
-    return route == bake_route::automatic || route == bake_route::raster || route == bake_route::brute;
+    return route == bake_route::automatic || route == bake_route::raster || route == bake_route::brute ||
+           route == bake_route::hierarchy;
 }
 
 result<bake_sums> baker::run(const bake_job& job, const bake_request& wanted)
@@ -76,16 +78,27 @@ result<bake_sums> baker::run(const bake_job& job, const bake_request& wanted)
     bake_sums sums{ request->first_vertex, request->last_vertex, request->first_line, request->last_line, {},
                     request->route,        "as asked for" };
     if (sums.route == bake_route::automatic) {
-        sums.route = job.turned() ? bake_route::brute : bake_route::raster;
+        sums.route = job.turned() ? bake_route::hierarchy : bake_route::raster;
         sums.reason = "chosen";
     }
     if (!has(sums.route)) {
         return error(errc::unsupported_format, "the CPU does not have this route");
     }
+    if (job.turned() && (sums.route == bake_route::raster || sums.route == bake_route::brute)) {
+        return error(errc::unsupported_format, "rules turned at each vertex are baked by rays: by the route hierarchy or embree");
+    }
     try {
         sums.sums.resize(sums.last_vertex - sums.first_vertex);
         const detail::bake_kernel_table& kernels = bake_kernels_of(state_->lanes);
-        detail::bake_by_lines(job, *request, kernels, *state_->workers, sums);
+        if (sums.route == bake_route::hierarchy) {
+            const auto done = detail::bake_by_vertices(job, *request, detail::tree_shooter(kernels), *state_->workers, sums);
+            if (!done) {
+                return done.error();
+            }
+        }
+        else {
+            detail::bake_by_lines(job, *request, kernels, *state_->workers, sums);
+        }
     } catch (...) {
         return error(errc::out_of_memory, "there is no memory for this bake");
     }

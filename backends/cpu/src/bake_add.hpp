@@ -52,7 +52,4 @@ struct bake_add {
     }
 };
 
-template <class Real>
-inline constexpr bake_kernel_table bake_kernels_over{ bake_raster<Real>::raster, bake_brute<Real>::brute, bake_add<Real>::add };
-
 } // namespace ao::cpu::detail

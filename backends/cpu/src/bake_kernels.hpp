@@ -99,6 +99,13 @@ struct bake_brute_memory {
     float* corners[9] = {};
 };
 
+// What rays are traced through, and the lines they follow, the parts of bake_line apart. Padding has weight 0.
+struct bake_ray_task {
+    const bake_node* nodes = nullptr; // triangles are the task's
+    const float* lines[11] = {};
+    const float* turn = nullptr; // rows of the receiver's rotation; null: none
+};
+
 struct bake_kernel_table {
     // Fills the view, and memory.seconds.
     void (*raster)(const bake_task&, const bake_line&, bake_raster_memory&, const bake_view&);
@@ -108,6 +115,9 @@ struct bake_kernel_table {
     // Adds a line, or two that are neighbours, to receivers first ... last - 1.
     void (*add)(const bake_task&, const bake_line* lines, const bake_view* views, int count, const bake_totals&,
                 std::size_t first, std::size_t last);
+    // Fills view and seconds (where a line's cosine is 0) with lines first ... last - 1 of one receiver.
+    void (*trace)(const bake_task&, const bake_ray_task&, std::size_t receiver, std::size_t first, std::size_t last,
+                  const bake_view&, float* seconds);
 };
 
 const bake_kernel_table& bake_scalar_kernels();

@@ -1,4 +1,4 @@
-#include "bake_add.hpp"
+#include "bake_trace.hpp"
 #include "instructions_lanes16.hpp"
 
 namespace ao::cpu::detail {

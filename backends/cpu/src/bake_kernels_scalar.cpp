@@ -1,4 +1,4 @@
-#include "bake_add.hpp"
+#include "bake_trace.hpp"
 
 namespace ao::cpu::detail {
 

@@ -99,7 +99,7 @@ void bake_by_lines(const bake_job& job, const bake_request& request, const bake_
     // Groups must end at the same line: their share of the progress is the line they end at.
     std::vector<bake_group> made;
     for (std::size_t g = 0; g < groups; ++g) {
-        made.push_back(make_bake_group(job, sums.first_vertex, sums.last_vertex, objects.empty() ? nullptr : &objects[g]));
+        made.push_back(make_bake_group(job, sums.first_vertex, sums.last_vertex, objects.empty() ? nullptr : &objects[g], false));
         if (made.back().vertices.empty()) {
             made.pop_back();
         }

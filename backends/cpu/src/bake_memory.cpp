@@ -37,7 +37,7 @@ std::vector<std::uint32_t> separate_objects(const bake_job& job)
     return objects;
 }
 
-bake_group make_bake_group(const bake_job& job, std::size_t first, std::size_t last, const std::uint32_t* object)
+bake_group make_bake_group(const bake_job& job, std::size_t first, std::size_t last, const std::uint32_t* object, bool tree)
 {
     const bake_mesh& m = job.mesh;
     bake_group group;
@@ -65,14 +65,26 @@ bake_group make_bake_group(const bake_job& job, std::size_t first, std::size_t l
     for (const glm::vec3& p : m.points) {
         group.points.push_back(p);
     }
-    for (std::size_t i = 0; i < m.triangles.size(); ++i) {
-        const bool own = object != nullptr && m.objects[i] == *object;
-        if (object == nullptr || own == (job.settings.occluders == bake_occluders::own_object)) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                group.corners[k].push_back(static_cast<std::int32_t>(m.triangles[i][k]));
-            }
+    std::vector<bake_triangle> some;
+    for (std::size_t i = 0; object != nullptr && i < m.triangles.size(); ++i) {
+        if ((m.objects[i] == *object) == (job.settings.occluders == bake_occluders::own_object)) {
+            some.push_back(m.triangles[i]);
         }
     }
+    if (object != nullptr && tree) {
+        group.own_tree = build_bake_tree(m.points, some);
+        std::vector<bake_triangle> by_leaves;
+        for (const std::uint32_t i : group.own_tree.order) {
+            by_leaves.push_back(some[i]);
+        }
+        some = std::move(by_leaves);
+    }
+    for (const bake_triangle& t : object != nullptr ? some : m.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            group.corners[k].push_back(static_cast<std::int32_t>(t[k]));
+        }
+    }
+    group.nodes = object != nullptr ? group.own_tree.nodes.data() : m.tree.nodes.data();
     bake_task& task = group.task;
     task.receivers.count = group.vertices.size();
     task.occluders.point_count = m.points.size();
@@ -94,6 +106,10 @@ bake_group make_bake_group(const bake_job& job, std::size_t first, std::size_t l
     o.front = job.settings.sides == bake_sides::front;
     o.by_cosine = job.by_cosine;
     o.bent = job.settings.bent_normals;
+    o.ground = job.settings.ground;
+    for (int i = 0; i < 4; ++i) {
+        o.ground_plane[i] = job.ground[i];
+    }
     return group;
 }
 

@@ -38,11 +38,14 @@ struct bake_group {
     bake_vector_arrays normals;
     bake_vector_arrays points;
     std::vector<std::int32_t> corners[3];
+    bake_tree own_tree; // of these triangles, where they are not the mesh's
+    const bake_node* nodes = nullptr;
     bake_task task;
 };
 
 // Baked vertices first ... last - 1 of the job with this object, or with any; near ones near in memory.
-bake_group make_bake_group(const bake_job& job, std::size_t first, std::size_t last, const std::uint32_t* object);
+// `tree`: it is needed.
+bake_group make_bake_group(const bake_job& job, std::size_t first, std::size_t last, const std::uint32_t* object, bool tree);
 
 // The objects whose vertices must be baked apart; empty: none.
 std::vector<std::uint32_t> separate_objects(const bake_job& job);
