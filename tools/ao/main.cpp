@@ -1,3 +1,5 @@
+#include "ao/bake_options.hpp"
+#include "ao/bake_program.hpp"
 #include "ao/options.hpp"
 #include "ao/render.hpp"
 #include "ao/temporal_render.hpp"
@@ -27,10 +29,19 @@ try {
     ao::tools::render_arguments arguments;
     CLI::App& render = *app.add_subcommand("render", "Render a scene's ambient occlusion and compare the backends");
     ao::tools::add_render_options(render, arguments);
+    ao::tools::bake_arguments bake_arguments;
+    CLI::App& bake = *app.add_subcommand("bake", "Bake a model's ambient occlusion per vertex");
+    ao::tools::add_bake_options(bake, bake_arguments);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
         return e.get_exit_code() == 0 ? app.exit(e) : fail(e.what());
+    }
+    if (bake.parsed()) {
+        ao::tools::note_given(bake, bake_arguments);
+        ao::tools::catch_interrupts();
+        ao::tools::bake(ao::tools::check_arguments(bake_arguments));
+        return 0;
     }
     arguments.has_yaw = render.count("--yaw") > 0;
     arguments.has_pitch = render.count("--pitch") > 0;

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "ao/bake_options.hpp"
+
+namespace ao::tools {
+
+// `ao bake`. Throws `error`; what was done of the bake is in the part's file then.
+void bake(const bake_options& o);
+
+} // namespace ao::tools
