@@ -108,7 +108,13 @@ inline bake_gpu_tables make_bake_gpu_tables(const bake_job& job, const bake_requ
     return t;
 }
 
-// Which routes a GPU backend has, and whether they can do the job; errc::invalid_settings where the one asked for cannot.
+inline bool has_bake_gpu_route(bake_route route)
+{
+    return route == bake_route::automatic || route == bake_route::brute || route == bake_route::tiled ||
+           route == bake_route::packed;
+}
+
+// errc::unsupported_format where the one asked for cannot do the job.
 inline result<std::pair<bake_route, const char*>> choose_bake_gpu_route(const bake_job& job, bake_route asked)
 {
     using chosen = std::pair<bake_route, const char*>;
@@ -121,12 +127,12 @@ inline result<std::pair<bake_route, const char*>> choose_bake_gpu_route(const ba
         return chosen{ asked, "as asked for" };
     case bake_route::packed:
         if (!packable) {
-            return error(errc::invalid_settings, "the packed route keeps a bit per direction, of one rule for all vertices: no "
-                                                 "fall-off, no rotation per vertex, no rule about the normal");
+            return error(errc::unsupported_format, "the packed route keeps a bit per direction, of one rule for all vertices: no "
+                                                   "fall-off, no rotation per vertex, no rule about the normal");
         }
         return chosen{ asked, "as asked for" };
     default:
-        return error(errc::invalid_settings, "this backend has the bake routes brute, tiled and packed");
+        return error(errc::unsupported_format, "this backend has the bake routes brute, tiled and packed");
     }
 }
 

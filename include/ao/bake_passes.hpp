@@ -25,7 +25,7 @@ struct bake_trace_pass {
 
 #include "ao/shared/bake_ray.h"
 
-    struct ao_bake_box;
+#include "ao/shared/bake_box.h"
 
     Resources resources;
     bool ao_front_only = false;

@@ -125,7 +125,7 @@ void require_reference(const Run& run, const ao::bake_job& job, const ao::bake_r
         const auto sums = run(job, request);
         if (route == ao::bake_route::packed && !packable(job)) {
             REQUIRE_FALSE(sums);
-            CHECK(sums.error().code() == ao::errc::invalid_settings);
+            CHECK(sums.error().code() == ao::errc::unsupported_format);
             continue;
         }
         INFO((sums ? std::string() : std::string(sums.error().reason())));
@@ -244,7 +244,7 @@ void check_refusals(const Run& run)
     for (const ao::bake_route route : { ao::bake_route::raster, ao::bake_route::embree }) {
         const auto sums = run(job, ao::bake_request{ .route = route });
         REQUIRE_FALSE(sums);
-        CHECK(sums.error().code() == ao::errc::invalid_settings);
+        CHECK(sums.error().code() == ao::errc::unsupported_format);
         CHECK_THAT(std::string(sums.error().reason()), Contains("brute") && Contains("packed"));
     }
     CHECK(run(job, ao::bake_request{ .first_line = 1 }).error().code() == ao::errc::invalid_settings);

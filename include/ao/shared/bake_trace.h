@@ -1,19 +1,6 @@
-// Rays through a tree of boxes. Callbacks: ao_bake_box ao_load_box(int node); vec3 ao_load_corner(int triangle, int corner).
+// Rays through a tree of boxes (bake_box.h). Callbacks: ao_bake_box ao_load_box(int node); vec3 ao_load_corner(int triangle, int corner).
 // Options: bool ao_front_only: occluders count where they turn their front to the ray; bool ao_find_nearest: else any hit.
 // N rays at once go wherever one of them goes. Visibility is the predicate's (bake_ray.h); boxes only leave out what it denies.
-
-AO_CONST int ao_bake_stack = 64; // bake_tree::max_depth
-
-// Boxes grow by this, units: the lattice moves a point by less than 2^-21, frames of float lines stray by less than 2^-21 over
-// the mesh, and a quotient's rounding moves a face of a box by less than 2^-20, on GPUs as well.
-AO_CONST real ao_bake_margin = real(7.62939453125e-6); // 2^-17
-
-struct ao_bake_box {
-    vec3 low;
-    vec3 high;
-    int first; // triangle of a leaf, or left child; the right one follows
-    int count; // triangles, 0 for inner nodes
-};
 
 // 1 / x, of a magnitude that a product with a coordinate keeps finite.
 AO_FN real ao_bake_inverse(real x)
@@ -53,7 +40,7 @@ AO_PASS real ao_bake_trace(ao_bake_line line, real sign, vec3 start, real reach,
     AO_PRECISE vec3 direction = vec3(line.dx * sign, line.dy * sign, line.dz * sign);
     vec3 inverse = vec3(ao_bake_inverse(direction.x), ao_bake_inverse(direction.y), ao_bake_inverse(direction.z));
     real nearest = real(-1);
-    real within = reach + ao_bake_margin; // box distances round
+    AO_PRECISE real within = reach + ao_bake_margin; // box distances round
     mask searching = active;
     int stack[ao_bake_stack];
     int top = 0;
@@ -77,7 +64,8 @@ AO_PASS real ao_bake_trace(ao_bake_line line, real sign, vec3 start, real reach,
                     mask nearer = hit && (nearest < real(0) || distance < nearest);
                     nearest = mix(nearest, distance, nearer);
                     if (ao_find_nearest) {
-                        within = mix(within, distance + ao_bake_margin, nearer);
+                        AO_PRECISE real shorter = distance + ao_bake_margin;
+                        within = mix(within, shorter, nearer);
                     }
                     else {
                         searching = searching && !hit;

@@ -39,8 +39,11 @@ public:
     baker& operator=(baker&&) noexcept;
     ~baker();
 
-    // errc::invalid_settings: a part that is not one, a route that this backend has not or that cannot do the job;
-    // errc::out_of_memory: tables beyond the device's limits, and which; errc::device.
+    // Whether run() takes this route; true of automatic.
+    static bool has(bake_route route) { return detail::has_bake_gpu_route(route); }
+
+    // errc::invalid_settings: a part that is not one; errc::unsupported_format: a route that this backend does not have, or not
+    // for these settings; errc::out_of_memory: tables beyond the device's limits, and which; errc::device.
     result<bake_sums> run(const bake_job& job, const bake_request& request = {});
 
 private:

@@ -1,0 +1,135 @@
+// Ambient occlusion per vertex: every backend and route finds the visibility of every vertex and direction as the reference does.
+#include "unit/bake_gpu_cases.hpp"
+
+#ifdef AO_HAS_CPU
+#include "ao/cpu/bake.hpp"
+#endif
+#ifdef AO_HAS_GL
+#include "ao/gl/bake.hpp"
+#include "host/gl_context.hpp"
+#endif
+#ifdef AO_HAS_VK
+#include "ao/vk/bake.hpp"
+#include "support/vk_runner.hpp"
+#endif
+
+#include <functional>
+#include <memory>
+
+using namespace bake_test;
+
+namespace {
+
+struct way {
+    std::string name;
+    std::function<ao::result<ao::bake_sums>(const ao::bake_job&, const ao::bake_request&)> run;
+};
+
+// Those with the same bits.
+constexpr std::array exact_routes{ std::pair{ ao::bake_route::brute, "brute" }, std::pair{ ao::bake_route::tiled, "tiled" },
+                                   std::pair{ ao::bake_route::packed, "packed" },
+                                   std::pair{ ao::bake_route::hierarchy, "hierarchy" },
+                                   std::pair{ ao::bake_route::raster, "raster" } };
+
+template <class Baker>
+void add(std::vector<way>& ways, const std::string& name, const std::shared_ptr<Baker>& baker)
+{
+    for (const auto& [route, route_name] : exact_routes) {
+        if (!Baker::has(route)) {
+            continue;
+        }
+        ways.push_back({ name + " " + route_name, [baker, asked = route](const ao::bake_job& job, ao::bake_request request) {
+                            request.route = asked;
+                            return baker->run(job, request);
+                        } });
+    }
+}
+
+const std::vector<way>& ways()
+{
+    static const std::vector<way> all = [] {
+        std::vector<way> made;
+#ifdef AO_HAS_CPU
+        for (const ao::cpu::width lanes : { ao::cpu::width::scalar, ao::cpu::width::automatic }) {
+            auto cpu = ao::cpu::baker::create({ .lanes = lanes });
+            REQUIRE(cpu);
+            const std::string name = "cpu " + std::string(ao::cpu::name_of(cpu->lanes()));
+            add(made, name, std::make_shared<ao::cpu::baker>(std::move(*cpu)));
+        }
+#endif
+#ifdef AO_HAS_GL
+        static auto context = ao::host::gl_context::create();
+        REQUIRE(context);
+        auto gl = ao::gl::baker::create((*context)->loader());
+        REQUIRE(gl);
+        add(made, "gl", std::make_shared<ao::gl::baker>(std::move(*gl)));
+#endif
+#ifdef AO_HAS_VK
+        static auto device = ao::host::vulkan_device::create();
+        REQUIRE(device);
+        auto vk = ao::vk::baker::create(vk_runner::context_of(**device), { (*device)->queue, (*device)->queue_family });
+        REQUIRE(vk);
+        add(made, "vk", std::make_shared<ao::vk::baker>(std::move(*vk)));
+#endif
+        return made;
+    }();
+    return all;
+}
+
+// Sums of two lines each, with the directions that are open: what is seen along every one of them.
+void check_visibility(const mesh& m, const ao::sphere_rule& rule)
+{
+    const auto job = job_of(m, rule, { .bent_normals = true });
+    for (std::size_t line = 0; line < job.lines.size(); line += 2) {
+        const ao::bake_request part{ .first_line = line, .last_line = std::min(line + 2, job.lines.size()) };
+        const auto expected = ao::bake_reference(job, part);
+        REQUIRE(expected);
+        for (const way& each : ways()) {
+            INFO(each.name << ", line " << line);
+            const auto sums = each.run(job, part);
+            INFO((sums ? std::string() : std::string(sums.error().reason())));
+            REQUIRE(sums);
+            CHECK(differing_sums(*sums, *expected) == 0);
+        }
+    }
+}
+
+} // namespace
+
+TEST_CASE("all routes see the same along every direction of every vertex")
+{
+    check_visibility(sphere_on_floor(6, 2), *ao::lebedev_rule(50));
+    // Rays through edges and corners, and along walls.
+    check_visibility(box({ 0, 0, 0 }, { 1, 2, 1 }, 4, true), *ao::lebedev_rule(26, ao::no_rotation));
+    check_visibility(welded(box({ 0, 0, 0 }, { 1, 2, 1 }, 4, true)), *ao::lebedev_rule(26, ao::no_rotation));
+    check_visibility(broken(500, 11), *ao::fibonacci_rule(21));
+}
+
+TEST_CASE("all routes see the same on meshes of thousands of vertices")
+{
+    check_visibility(sphere_on_floor(20, 4), *ao::lebedev_rule(6));
+    check_visibility(broken(1500, 12), *ao::fibonacci_rule(4));
+}
+
+TEST_CASE("all routes have the same sums for all settings")
+{
+    const mesh scene = sphere_on_floor(8, 2);
+    for (const setting_case& each : setting_cases()) {
+        INFO(each.name);
+        const auto job = job_of(scene, *ao::lebedev_rule(38), each.settings);
+        const auto expected = ao::bake_reference(job);
+        REQUIRE(expected);
+        std::size_t able = 0;
+        for (const way& by : ways()) {
+            INFO(by.name);
+            const auto sums = by.run(job, {});
+            if (!sums) {
+                CHECK(sums.error().code() == ao::errc::unsupported_format);
+                continue;
+            }
+            ++able;
+            CHECK(differing_sums(*sums, *expected) == 0);
+        }
+        CHECK(able >= ways().size() / 2);
+    }
+}
