@@ -39,7 +39,7 @@ struct bake_job {
     std::vector<bake_line> lines;
     std::vector<std::uint32_t> directions; // bake_lines::directions
     rule_domain domain = rule_domain::sphere;
-    float reach = 0;          // settings.distance in units; beyond the mesh where that is infinite
+    float reach = 0;          // settings.distance in units; 1e15 where that is more
     glm::vec4 ground{ 0.0F }; // ao_bake_ground; w in units
     bool by_cosine = false;   // weights are multiplied by the cosine
     // The rule is turned at each vertex (vertex_rotation).
@@ -150,7 +150,7 @@ inline result<bake_job> prepare_bake(const bake_input& input, const sphere_rule&
     job.lines = std::move(lines->lines);
     job.directions = std::move(lines->directions);
     job.domain = rule.domain;
-    job.reach = static_cast<float>(std::min(settings.distance * job.mesh.diagonal, 8.0));
+    job.reach = static_cast<float>(std::min(settings.distance * job.mesh.diagonal, 1e15)); // its product with an area is finite
     job.by_cosine = settings.coefficient == bake_coefficient::cosine && rule.domain != rule_domain::cosine_hemisphere;
     if (settings.ground) {
         const glm::dvec3 up = glm::normalize(settings.ground_up);

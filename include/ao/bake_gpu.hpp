@@ -47,14 +47,23 @@ struct bake_launch {
 };
 static_assert(sizeof(bake_launch) == 64);
 
-enum class bake_shader { brute, tiled, project, packed, count_packed };
+enum class bake_shader { brute, tiled, hierarchy, project, packed, count_packed };
 
 inline std::span<const bake_shader> bake_shaders_of(bake_route route)
 {
-    static constexpr std::array all{ bake_shader::brute, bake_shader::tiled, bake_shader::project, bake_shader::packed,
-                                     bake_shader::count_packed };
+    static constexpr std::array all{ bake_shader::brute,   bake_shader::tiled,  bake_shader::hierarchy,
+                                     bake_shader::project, bake_shader::packed, bake_shader::count_packed };
     const std::span<const bake_shader> list(all);
-    return route == bake_route::brute ? list.first(1) : route == bake_route::tiled ? list.subspan(1, 1) : list.subspan(2);
+    switch (route) {
+    case bake_route::brute:
+        return list.first(1);
+    case bake_route::tiled:
+        return list.subspan(1, 1);
+    case bake_route::hierarchy:
+        return list.subspan(2, 1);
+    default:
+        return list.subspan(3);
+    }
 }
 
 inline constexpr std::size_t bake_gpu_constants = 8;
@@ -74,11 +83,12 @@ struct bake_gpu_tables {
     std::vector<glm::vec4> points;
     std::vector<bake_line> lines;
     std::vector<bake_pass<float>::ao_rotation> rotations; // of the part's vertices, at least one
+    std::span<const bake_node> nodes;                     // the job's
 };
 
 inline bake_gpu_tables make_bake_gpu_tables(const bake_job& job, const bake_request& part)
 {
-    static_assert(sizeof(bake_line) == 48 && sizeof(bake_pass<float>::ao_rotation) == 48);
+    static_assert(sizeof(bake_node) == 32 && sizeof(bake_line) == 48 && sizeof(bake_pass<float>::ao_rotation) == 48);
     const bake_mesh& m = job.mesh;
     bake_gpu_tables t;
     const auto word = [](float x) { return std::bit_cast<std::uint32_t>(x); };
@@ -98,6 +108,7 @@ inline bake_gpu_tables make_bake_gpu_tables(const bake_job& job, const bake_requ
         t.points.emplace_back(p, 0.0F);
     }
     t.lines = job.lines;
+    t.nodes = m.tree.nodes;
     t.rotations.resize(1);
     if (job.turned()) {
         t.rotations.resize(part.last_vertex - part.first_vertex);
@@ -111,7 +122,7 @@ inline bake_gpu_tables make_bake_gpu_tables(const bake_job& job, const bake_requ
 inline bool has_bake_gpu_route(bake_route route)
 {
     return route == bake_route::automatic || route == bake_route::brute || route == bake_route::tiled ||
-           route == bake_route::packed;
+           route == bake_route::packed || route == bake_route::hierarchy;
 }
 
 // errc::unsupported_format where the one asked for cannot do the job.
@@ -121,9 +132,10 @@ inline result<std::pair<bake_route, const char*>> choose_bake_gpu_route(const ba
     const bool packable = job.settings.falloff == bake_falloff::none && !job.turned();
     switch (asked) {
     case bake_route::automatic:
-        return chosen{ bake_route::tiled, "tiled: triangles are projected once for a group of vertices" };
+        return chosen{ bake_route::hierarchy, "work grows with the logarithm of the triangles" };
     case bake_route::brute:
     case bake_route::tiled:
+    case bake_route::hierarchy:
         return chosen{ asked, "as asked for" };
     case bake_route::packed:
         if (!packable) {
@@ -132,7 +144,7 @@ inline result<std::pair<bake_route, const char*>> choose_bake_gpu_route(const ba
         }
         return chosen{ asked, "as asked for" };
     default:
-        return error(errc::unsupported_format, "this backend has the bake routes brute, tiled and packed");
+        return error(errc::unsupported_format, "this backend has the bake routes brute, tiled, packed and hierarchy");
     }
 }
 
@@ -198,13 +210,15 @@ inline bool nothing_to_bake(const bake_job& job, const bake_request& part)
 template <class Execute>
 class bake_gpu_driver {
 public:
-    bake_gpu_driver(const bake_job& job, const bake_request& part, const bake_gpu_options& options, std::uint32_t group,
-                    Execute& execute)
+    bake_gpu_driver(const bake_job& job, const bake_request& part, bake_route route, const bake_gpu_options& options,
+                    std::uint32_t group, Execute& execute)
         : part_(part),
+          route_(route),
           group_(group),
           execute_(execute),
           pace_(options.launch_seconds),
-          triangles_(job.mesh.triangles.size())
+          triangles_(job.mesh.triangles.size()),
+          tests_of_ray_(route == bake_route::hierarchy ? tests_in_tree : static_cast<double>(triangles_))
     {
         launch_.base_vertex = static_cast<std::uint32_t>(part.first_vertex);
         launch_.last_triangle = static_cast<std::uint32_t>(triangles_);
@@ -214,17 +228,17 @@ public:
     }
 
     // The end of the vertices that are done; the part's, unless progress said no.
-    result<std::size_t> run(bake_route route, std::size_t lines_at_once)
+    result<std::size_t> run(std::size_t lines_at_once)
     {
         std::size_t first = part_.first_vertex;
         while (first < part_.last_vertex && !ended_) {
             const std::size_t last = std::min(first + block_size(), part_.last_vertex);
             set_vertices(first, last);
-            const auto failed = route == bake_route::packed ? run_packed(lines_at_once) : run_lines(route == bake_route::tiled);
+            const auto failed = route_ == bake_route::packed ? run_packed(lines_at_once) : run_lines();
             if (failed) {
                 return *failed;
             }
-            if (!ended_) {
+            if (whole_) {
                 first = last;
             }
         }
@@ -234,13 +248,14 @@ public:
 private:
     static constexpr std::size_t least_vertices = 256;
     static constexpr std::size_t most_rows = 32768; // of groups; every driver takes 65535
+    static constexpr double tests_in_tree = 64;     // of a ray, or about
 
-    // So many that a launch does a few pairs of lines.
+    // So many that a launch does a few lines of all.
     std::size_t block_size() const
     {
-        const double vertices = pace_.tests() / (8.0 * static_cast<double>(triangles_));
-        const auto clamped = std::clamp(vertices, static_cast<double>(least_vertices), static_cast<double>(most_block_vertices));
-        return static_cast<std::size_t>(clamped);
+        const std::size_t most = route_ == bake_route::hierarchy ? most_rows : most_block_vertices;
+        const double fitting = pace_.tests() / (8 * tests_of_ray_);
+        return static_cast<std::size_t>(std::clamp(fitting, static_cast<double>(least_vertices), static_cast<double>(most)));
     }
 
     void set_vertices(std::size_t first, std::size_t last)
@@ -262,7 +277,7 @@ private:
     // As many lines as the pace allows, a multiple of `step`.
     std::size_t lines_of_pace(std::size_t step) const
     {
-        const double lines = pace_.tests() / (static_cast<double>(vertices()) * static_cast<double>(triangles_));
+        const double lines = pace_.tests() / (static_cast<double>(vertices()) * tests_of_ray_);
         const double steps = std::clamp(lines / static_cast<double>(step), 1.0, static_cast<double>(most_rows));
         return static_cast<std::size_t>(steps) * step;
     }
@@ -275,10 +290,7 @@ private:
         return failed;
     }
 
-    double tests_of(std::size_t lines, std::size_t triangles) const
-    {
-        return static_cast<double>(vertices()) * static_cast<double>(lines) * static_cast<double>(triangles);
-    }
+    double rays(std::size_t lines) const { return static_cast<double>(vertices()) * static_cast<double>(lines); }
 
     // The lines of the block up to `line` are done.
     void report(double line)
@@ -292,20 +304,24 @@ private:
         ended_ = !part_.progress(done / static_cast<double>(part_.last_vertex - part_.first_vertex));
     }
 
-    std::optional<error> run_lines(bool tiled)
+    std::optional<error> run_lines()
     {
+        const bake_shader shader = bake_shaders_of(route_).front();
         std::size_t line = part_.first_line;
         while (line < part_.last_line && !ended_) {
             const std::size_t next = std::min(line + lines_of_pace(2), part_.last_line);
             set_lines(line, next);
-            const auto rows = static_cast<std::uint32_t>((next - line + 1) / 2);
-            if (const auto failed = timed(tiled ? bake_shader::tiled : bake_shader::brute, groups(vertices()), rows,
-                                          tests_of(next - line, triangles_))) {
+            const std::size_t pairs = (next - line + 1) / 2;
+            const bool by_vertex = shader == bake_shader::hierarchy;
+            if (const auto failed =
+                    timed(shader, groups(by_vertex ? pairs : vertices()),
+                          static_cast<std::uint32_t>(by_vertex ? vertices() : pairs), rays(next - line) * tests_of_ray_)) {
                 return failed;
             }
             line = next;
             report(static_cast<double>(line));
         }
+        whole_ = line == part_.last_line;
         return std::nullopt;
     }
 
@@ -313,9 +329,11 @@ private:
     std::optional<error> run_packed(std::size_t lines_at_once)
     {
         constexpr std::size_t bits = bake_lines_in_word;
+        const std::size_t most = std::min(lines_at_once, most_rows);
         std::size_t line = part_.first_line;
+        whole_ = false;
         while (line < part_.last_line && !ended_) {
-            const std::size_t next = std::min({ line + lines_of_pace(bits), line + lines_at_once, part_.last_line });
+            const std::size_t next = std::min({ line + lines_of_pace(bits), line + most, part_.last_line });
             set_lines(line, next);
             launch_.words = static_cast<std::uint32_t>((next - line + bits - 1) / bits);
             if (auto failed =
@@ -334,18 +352,20 @@ private:
             line = next;
             report(static_cast<double>(line));
         }
+        whole_ = line == part_.last_line;
         return std::nullopt;
     }
 
     std::optional<error> run_triangles(std::size_t lines)
     {
         for (std::size_t t = 0; t < triangles_ && !ended_;) {
-            const double fitting = pace_.tests() / tests_of(lines, 1);
+            const double fitting = pace_.tests() / rays(lines);
             const auto count = static_cast<std::size_t>(std::clamp(fitting, 1024.0, static_cast<double>(triangles_ - t) + 1024));
             const std::size_t end = std::min(t + count, triangles_);
             launch_.first_triangle = static_cast<std::uint32_t>(t);
             launch_.last_triangle = static_cast<std::uint32_t>(end);
-            if (auto failed = timed(bake_shader::packed, groups(vertices()), launch_.words, tests_of(lines, end - t))) {
+            if (auto failed =
+                    timed(bake_shader::packed, groups(vertices()), launch_.words, rays(lines) * static_cast<double>(end - t))) {
                 return failed;
             }
             t = end;
@@ -358,12 +378,15 @@ private:
     }
 
     const bake_request& part_;
+    bake_route route_;
     std::uint32_t group_;
     Execute& execute_;
     bake_pace pace_;
     std::size_t triangles_;
+    double tests_of_ray_;
     bake_launch launch_;
-    bool ended_ = false;
+    bool ended_ = false; // by progress
+    bool whole_ = false; // the block of vertices is done
 };
 
 } // namespace detail

@@ -81,15 +81,20 @@ struct bake_start {
     double clearance = 0;        // sine of the angle to what is nearest
 };
 
+inline glm::dvec3 just_above(const bake_corner& corner, double angle)
+{
+    return glm::normalize(corner.middle + corner.above * angle);
+}
+
 // The direction above the corner, between its face and what comes first over it, that is clearest.
-inline bake_start above_corner(const bake_corner& corner, std::span<const bake_arc> arcs)
+inline bake_start above_corner(const bake_corner& corner, double least_angle, std::span<const bake_arc> arcs)
 {
     constexpr double degree = 0.017453292519943295;
     constexpr std::array angles{ 90.0, 60.0, 45.0, 30.0, 20.0, 10.0, 5.0, 2.0, 1.0, 0.5 };
     const auto at = [&](double angle) {
         return corner.middle * std::cos(angle * degree) + corner.above * std::sin(angle * degree);
     };
-    const glm::dvec3 lowest = at(0.25);
+    const glm::dvec3 lowest = just_above(corner, least_angle);
     bake_start best;
     for (const double angle : angles) {
         const glm::dvec3 r = at(angle);
@@ -108,24 +113,30 @@ inline bake_start start_of(const glm::dvec3& normal, std::span<const bake_corner
     constexpr std::size_t most = 32; // corners looked at, of vertices with thousands
     const std::span<const bake_corner> some = corners.first(std::min(corners.size(), most));
     const double upright = clearance_of(normal, arcs);
-    bake_start best{ normal, upright };
-    if (upright >= clear) {
-        for (const bake_corner& corner : some) {
-            if (connected(glm::normalize(corner.middle + corner.above * 0.004), normal, arcs)) {
-                return best;
+    // Radians above a corner at which its region is told from what lies over it: but for surfaces that double its face, and
+    // are off it by rounding, any will do.
+    for (const double least_angle : { 1e-6, 4e-3 }) {
+        if (upright >= clear) {
+            for (const bake_corner& corner : some) {
+                if (connected(just_above(corner, least_angle), normal, arcs)) {
+                    return { normal, upright };
+                }
             }
         }
-    }
-    best.clearance = 0;
-    for (const bake_corner& corner : some) {
-        const bake_start start = above_corner(corner, arcs);
-        const auto key = [](const glm::dvec3& v) { return std::array{ v.x, v.y, v.z }; };
-        if (start.clearance > best.clearance ||
-            (start.clearance == best.clearance && key(start.direction) < key(best.direction))) {
-            best = start;
+        bake_start best;
+        for (const bake_corner& corner : some) {
+            const bake_start start = above_corner(corner, least_angle, arcs);
+            const auto key = [](const glm::dvec3& v) { return std::array{ v.x, v.y, v.z }; };
+            if (start.clearance > best.clearance ||
+                (start.clearance == best.clearance && key(start.direction) < key(best.direction))) {
+                best = start;
+            }
+        }
+        if (best.clearance > 0) {
+            return best;
         }
     }
-    return best.clearance > 0 ? best : bake_start{ normal, upright };
+    return { normal, upright };
 }
 
 // What a start is moved by along its direction.

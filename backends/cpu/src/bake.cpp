@@ -1,9 +1,14 @@
 #include "ao/cpu/bake.hpp"
 
+#if defined(AO_CPU_EMBREE)
+#include "bake_embree.hpp"
+#endif
 #include "bake_lines.hpp"
 #include "bake_rays.hpp"
 #include "threads.hpp"
 #include "width.hpp"
+
+#include "ao/bake_route.hpp"
 
 #include <string>
 #include <utility>
@@ -65,8 +70,19 @@ int baker::threads() const
 
 bool baker::has(bake_route route)
 {
-    return route == bake_route::automatic || route == bake_route::raster || route == bake_route::brute ||
-           route == bake_route::hierarchy;
+    switch (route) {
+    case bake_route::automatic:
+    case bake_route::brute:
+    case bake_route::hierarchy:
+    case bake_route::raster:
+        return true;
+    case bake_route::embree:
+#if defined(AO_CPU_EMBREE)
+        return true;
+#endif
+    default:
+        return false;
+    }
 }
 
 result<bake_sums> baker::run(const bake_job& job, const bake_request& wanted)
@@ -78,8 +94,9 @@ result<bake_sums> baker::run(const bake_job& job, const bake_request& wanted)
     bake_sums sums{ request->first_vertex, request->last_vertex, request->first_line, request->last_line, {},
                     request->route,        "as asked for" };
     if (sums.route == bake_route::automatic) {
-        sums.route = job.turned() ? bake_route::hierarchy : bake_route::raster;
-        sums.reason = "chosen";
+        const bake_choice choice = choose_bake_route(job, sums.last_vertex - sums.first_vertex);
+        sums.route = choice.route;
+        sums.reason = std::string_view(choice.why);
     }
     if (!has(sums.route)) {
         return error(errc::unsupported_format, "the CPU does not have this route");
@@ -90,8 +107,15 @@ result<bake_sums> baker::run(const bake_job& job, const bake_request& wanted)
     try {
         sums.sums.resize(sums.last_vertex - sums.first_vertex);
         const detail::bake_kernel_table& kernels = bake_kernels_of(state_->lanes);
-        if (sums.route == bake_route::hierarchy) {
-            const auto done = detail::bake_by_vertices(job, *request, detail::tree_shooter(kernels), *state_->workers, sums);
+        const bool by_embree = sums.route == bake_route::embree;
+        if (sums.route == bake_route::hierarchy || by_embree) {
+            detail::make_bake_shooter shooter = detail::tree_shooter(kernels);
+#if defined(AO_CPU_EMBREE)
+            if (by_embree) {
+                shooter = detail::embree_shooter();
+            }
+#endif
+            const auto done = detail::bake_by_vertices(job, *request, shooter, *state_->workers, sums);
             if (!done) {
                 return done.error();
             }

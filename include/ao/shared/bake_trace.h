@@ -32,16 +32,16 @@ AO_FN ao_bake_box ao_bake_chosen(ao_bake_box a, ao_bake_box b, bool first)
     return b;
 }
 
-// The distance to the nearest occluder of each active ray within `reach`, or to any; -1 where there is none. `sign`: 1 along the
+// The distance to the nearest occluder of each wanted ray within `reach`, or to any; -1 where there is none. `sign`: 1 along the
 // line's d, -1 against it.
-AO_PASS real ao_bake_trace(ao_bake_line line, real sign, vec3 start, real reach, mask active)
+AO_PASS real ao_bake_trace(ao_bake_line line, real sign, vec3 start, real reach, mask wanted)
 {
     ao_bake_point seen = ao_bake_seen(line, start);
     AO_PRECISE vec3 direction = vec3(line.dx * sign, line.dy * sign, line.dz * sign);
     vec3 inverse = vec3(ao_bake_inverse(direction.x), ao_bake_inverse(direction.y), ao_bake_inverse(direction.z));
     real nearest = real(-1);
     AO_PRECISE real within = reach + ao_bake_margin; // box distances round
-    mask searching = active;
+    mask searching = wanted;
     int stack[ao_bake_stack];
     int top = 0;
     ao_bake_box box = ao_load_box(0);
