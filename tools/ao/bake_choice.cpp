@@ -17,6 +17,7 @@ void for_choices(Choice& c, const Text& text, const Flag& flag)
 {
     text("rule", c.rule);
     text("rule_text", c.rule_text);
+    text("bits", c.bits);
     text("coefficient", c.coefficient);
     text("distance", c.distance);
     text("falloff", c.falloff);
@@ -116,6 +117,11 @@ bake_choice choice_from(const std::string& text)
         throw error("the part is damaged");
     }
     return c;
+}
+
+ao::bake_route route_of(const bake_choice& c)
+{
+    return c.bits == "embree" ? bake_route::embree : c.bits == "cube-maps" ? bake_route::cube_maps : bake_route::automatic;
 }
 
 bake_wanted read_choice(const bake_choice& c)

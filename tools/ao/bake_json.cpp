@@ -68,6 +68,10 @@ std::string json_of(const bake_options& o, const bake_choice& c, const bake_work
     j["objects"] = job.mesh.object_count;
     j["settings"] = json::parse(to_text(c));
     j["settings"].erase("rule_text");
+    if (!o.light.file.empty())
+        j["light"] = { { "file", o.light.file },
+                       { "shininess", o.light.exponent ? json(*o.light.exponent) : json(nullptr) },
+                       { "eye", o.light.eye ? json{ o.light.eye->x, o.light.eye->y, o.light.eye->z } : json(nullptr) } };
     j["directions"] = work.directions;
     j["lines"] = job.lines.size();
     if (o.sharded)

@@ -1,5 +1,6 @@
 #include "ao/bake_options.hpp"
 
+#include "ao/lobe_rule.hpp"
 #include "ao/option_words.hpp"
 #include "scene/bake_files.hpp"
 #include "scene/error.hpp"
@@ -80,12 +81,39 @@ void parse_shard(const std::string& text, bake_options& o)
         throw error("--shard: I is 1 to N, and N at most 1000000");
 }
 
+bake_light parse_light(const bake_arguments& a)
+{
+    bake_light l;
+    l.file = a.light;
+    if (a.light.empty() && (a.has_shininess || !a.eye.empty()))
+        throw error(std::string(a.has_shininess ? "--shininess" : "--eye") + " needs --light");
+    if (a.has_shininess) {
+        if (!(a.shininess >= 0.0 && a.shininess <= max_lobe_exponent))
+            throw error("--shininess: 0 to 8192");
+        l.exponent = a.shininess;
+    }
+    if (a.eye.empty())
+        return l;
+    if (!l.exponent)
+        throw error("--eye needs --shininess: diffuse light is the same from everywhere");
+    const std::vector<std::string> words = split(a.eye, ',');
+    if (words.size() != 3)
+        throw error("--eye: '" + one_line(a.eye) + "' is not X,Y,Z");
+    l.eye.emplace(0.0);
+    for (int i = 0; i < 3; ++i) {
+        (*l.eye)[i] = number<double>("--eye", words[static_cast<std::size_t>(i)]);
+        if (!std::isfinite((*l.eye)[i]))
+            throw error("--eye: numbers must be finite");
+    }
+    return l;
+}
+
 void check_outputs(const bake_arguments& a, bake_options& o)
 {
     if (o.sharded) {
         if (a.out.size() != 1)
             throw error("--shard needs one --out, the file of the part");
-        if (!a.picture.empty() || !a.remap.empty())
+        if (!a.picture.empty() || !a.remap.empty() || !a.light.empty())
             throw error("--shard: there is nothing to show before the parts are merged");
     }
     else {
@@ -150,6 +178,10 @@ void add_bake_options(CLI::App& command, bake_arguments& a)
     command.add_option("--picture", a.picture, "PNG of the model in its colours");
     command.add_option("--size", a.size, "WIDTHxHEIGHT of the picture");
     command.add_option("--remap", a.remap, "LOW,HIGH,GAMMA of the colours; values alone stay as they are");
+    command.add_option("--light", a.light,
+                       "picture of the surroundings (HDR, EXR ...): colours are its light times the coefficient");
+    command.add_option("--shininess", a.shininess, "exponent of Phong's lobe, for --light; without it diffuse");
+    command.add_option("--eye", a.eye, "X,Y,Z from where --shininess is seen; without it from above each vertex");
     command.add_option("--json", a.json, "file for the numbers");
     command.add_flag("--progress", a.progress, "share done and time left on stderr");
     command.add_option("--shard", a.shard, "I/N: only part I of N, to the file of --out");
@@ -166,6 +198,7 @@ void note_given(const CLI::App& command, bake_arguments& a)
     a.has_choice = std::any_of(std::begin(choice_names), std::end(choice_names), given);
     a.has_work = std::any_of(std::begin(work_names), std::end(work_names), given);
     a.has_size = given("--size");
+    a.has_shininess = given("--shininess");
 }
 
 bake_options check_arguments(const bake_arguments& a)
@@ -191,11 +224,14 @@ bake_options check_arguments(const bake_arguments& a)
     o.device = a.device;
     o.route = parse_route(a.route);
     o.choice = a.choice;
+    if (o.route == bake_route::embree || o.route == bake_route::cube_maps)
+        o.choice.bits = a.route;
     (void)read_choice(a.choice);
     o.merge = a.merge;
     o.resume = a.resume;
     o.progress = a.progress;
     o.remap = parse_remap(a.remap);
+    o.light = parse_light(a);
     o.size = parse_size(a.size);
     parse_shard(a.shard, o);
     if (!(a.keep_every >= 0.0 && a.keep_every <= 1e6))

@@ -2,6 +2,8 @@
 
 #include "ao/bake_settings.hpp"
 
+#include <glm/vec3.hpp>
+
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -22,7 +24,8 @@ struct bake_choice {
     bool rotate_per_vertex = false, bent_normals = false;
     long long seed = 1;
 
-    std::string rule_text; // of the file, if the rule is one
+    std::string rule_text;      // of the file, if the rule is one
+    std::string bits = "exact"; // or of a route that has its own: embree, cube-maps
 };
 [[nodiscard]] std::string to_text(const bake_choice& c);
 // Throws `error`.
@@ -33,11 +36,11 @@ struct bake_arguments {
     std::string model, backend = "cpu", device, lanes = "auto", route = "auto";
     bake_choice choice;
     std::vector<std::string> merge, out;
-    std::string picture, size = "1024x768", remap, json, shard, part, light;
-    int threads = 0, light_order = 8;
+    std::string picture, size = "1024x768", remap, json, shard, part, light, eye;
+    int threads = 0;
     double keep_every = 30, shininess = 0;
     bool progress = false, resume = false, has_model = false, has_choice = false, has_work = false, has_size = false;
-    bool has_shininess = false, has_light_order = false;
+    bool has_shininess = false;
 };
 
 struct bake_remap {
@@ -59,7 +62,16 @@ struct bake_wanted {
     double crease = 0;                 // degrees
     std::optional<int> ground_beneath; // 0..5: x, -x, y, ... is up and the lowest vertex lies on the ground
 };
+// With the bits of the choice.
+[[nodiscard]] ao::bake_route route_of(const bake_choice& c);
 [[nodiscard]] bake_wanted read_choice(const bake_choice& c);
+
+// Light that vertices are shown in.
+struct bake_light {
+    std::string file;               // a picture of the surroundings; empty: none, the coefficient alone is shown
+    std::optional<double> exponent; // of Phong's lobe; none: diffuse
+    std::optional<glm::dvec3> eye;  // of the lobe, model units; none: above each vertex
+};
 
 struct bake_options {
     std::string model;
@@ -72,6 +84,7 @@ struct bake_options {
     std::string picture;
     picture_size size;
     bake_remap remap;
+    bake_light light;
     std::filesystem::path json;
     std::size_t shard = 1, shards = 1;
     bool sharded = false;

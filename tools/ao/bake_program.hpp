@@ -4,7 +4,8 @@
 
 namespace ao::tools {
 
-// `ao bake`. Throws `error`; what was done of the bake is in the part's file then.
-void bake(const bake_options& o);
+// `ao bake`. Throws `error`; what was done of the bake is in the part's file then. False where another process of the same mpirun
+// has failed, and says so.
+[[nodiscard]] bool bake(const bake_options& o);
 
 } // namespace ao::tools

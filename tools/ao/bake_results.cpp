@@ -1,5 +1,6 @@
 #include "ao/bake_results.hpp"
 
+#include "ao/color.hpp"
 #include "ao/outcome.hpp"
 #include "scene/bake_files.hpp"
 #include "scene/files.hpp"
@@ -75,17 +76,33 @@ bake_results finish_work(const bake_options& o, const bake_work& work, const std
             b /= length;
     for (const float c : r.baked.coefficients)
         r.colors.emplace_back(o.remap(c));
+    if (o.light.file.empty())
+        return r;
+    r.light = light_at(o.light, work);
+    for (std::size_t v = 0; v < r.light.size(); ++v) {
+        r.colors[v] *= r.light[v];
+        r.light[v] *= r.baked.coefficients[v];
+    }
     return r;
 }
 
 void write_results(const bake_options& o, const bake_work& work, const bake_results& r)
 {
-    const baked_values mesh{ r.baked.coefficients, r.baked.errors, r.baked.bent, {}, r.colors };
-    const baked_values file{ r.coefficients, r.errors, r.bent, {}, {} };
+    // Light is shown as screens take it, but by glTF, which asks for linear colours.
+    std::vector<glm::vec3> shown = r.colors;
+    if (!r.light.empty())
+        for (glm::vec3& c : shown)
+            for (int k = 0; k < 3; ++k)
+                c[k] = srgb_of_linear(std::clamp(c[k], 0.0f, 1.0f));
+    const std::vector<glm::vec3> light = gathered(r.light, work);
+    const baked_values mesh{ r.baked.coefficients, r.baked.errors, r.baked.bent, {}, shown };
+    const baked_values linear{ r.baked.coefficients, r.baked.errors, r.baked.bent, {}, r.colors };
+    const baked_values file{ r.coefficients, r.errors, r.bent, light, {} };
     for (const std::string& name : o.out) {
         std::string bytes;
         try {
-            bytes = bytes_for(bake_format_of(name), work, mesh, file);
+            const bake_format format = bake_format_of(name);
+            bytes = bytes_for(format, work, format == bake_format::glb ? linear : mesh, file);
         } catch (const error& e) {
             throw error(name + ": " + e.what());
         }
@@ -93,7 +110,7 @@ void write_results(const bake_options& o, const bake_work& work, const bake_resu
         stop_if_interrupted();
     }
     if (!o.picture.empty())
-        write_file(o.picture, picture_of(work.baked(), r.colors, o.size));
+        write_file(o.picture, picture_of(work.baked(), shown, o.size));
 }
 
 } // namespace ao::tools

@@ -14,10 +14,14 @@ struct bake_results {
     std::vector<float> coefficients; // of the file's vertices: means over their copies along creases
     std::vector<float> errors;
     std::vector<glm::vec3> bent;
-    std::vector<glm::vec3> colors; // of the baked mesh
+    std::vector<glm::vec3> light;  // linear RGB, of the baked mesh; where asked for
+    std::vector<glm::vec3> colors; // linear, of the baked mesh
     std::uint64_t rays = 0;
 };
 [[nodiscard]] bake_results finish_work(const bake_options& o, const bake_work& work, const std::vector<bake_part>& parts);
+
+// Towards each vertex of the mesh without occlusion, linear RGB. Throws `error`.
+[[nodiscard]] std::vector<glm::vec3> light_at(const bake_light& light, const bake_work& work);
 
 // All files that were asked for but the JSON. Throws `error`.
 void write_results(const bake_options& o, const bake_work& work, const bake_results& r);

@@ -40,8 +40,7 @@ try {
     if (bake.parsed()) {
         ao::tools::note_given(bake, bake_arguments);
         ao::tools::catch_interrupts();
-        ao::tools::bake(ao::tools::check_arguments(bake_arguments));
-        return 0;
+        return ao::tools::bake(ao::tools::check_arguments(bake_arguments)) ? 0 : 1;
     }
     arguments.has_yaw = render.count("--yaw") > 0;
     arguments.has_pitch = render.count("--pitch") > 0;
