@@ -543,7 +543,8 @@ TEST_CASE("light is projected onto the vertices, diffuse or glossy, times what i
         const auto rows = rows_of(read_all(file("o.csv")));
         REQUIRE(rows.size() > 80);
         CHECK(rows[0] == words{ "vertex", "coefficient", "error", "red", "green", "blue" });
-        const std::vector<float> light = npy(file("o.npy"), "(" + std::to_string(rows.size() - 1) + ", 3)");
+        const std::vector<float> light =
+            npy(file("o.npy"), std::string("(").append(std::to_string(rows.size() - 1)).append(", 3)"));
         for (std::size_t i = 0; i + 1 < rows.size(); ++i) {
             const float coefficient = std::stof(rows[i + 1][1]);
             const float expected[] = { coefficient, coefficient / 2, coefficient / 4 };
