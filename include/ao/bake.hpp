@@ -118,7 +118,7 @@ struct bake_report {
 
 struct bake_result {
     std::vector<float> coefficients; // per vertex of the input, [0, 1] unless the rule has negative weights; 1 where unbaked
-    std::vector<float> errors;       // estimated standard error of each; docs/numerics.md, "Per vertex"
+    std::vector<float> errors;       // estimated standard error of each, of spread rules; docs/numerics.md, "Per vertex"
     std::vector<glm::vec3> bent;     // unit, the mean open direction; the normal where nothing is open; if asked for
     std::vector<std::uint8_t> flags; // bake_flag
     bake_report report;
@@ -225,9 +225,11 @@ inline bool merge_bake_sums(bake_sums& into, const bake_sums& next)
 
 namespace detail {
 
-// Measured: the error of a spread rule against that of one whose points decided by themselves on which side of the boundary of
-// what is open they lie (docs/numerics.md, "Per vertex").
-inline constexpr double bake_error_factor = 1.0;
+// Measured on spread rules (docs/numerics.md, "Per vertex"): the error against that of points which lie on either side of the
+// boundary of what is open by chance.
+inline constexpr double bake_error_factor = 0.45;
+// Changes that may have been missed: occluders that no pair of neighbours told apart.
+inline constexpr double bake_missed_changes = 2;
 
 // Every change between neighbours stands for a point whose cell is cut by the boundary of what is open.
 inline float bake_error_of(const bake_sum& s, bool by_cosine)
@@ -237,7 +239,8 @@ inline float bake_error_of(const bake_sum& s, bool by_cosine)
     }
     const double levels = static_cast<double>(bake_pass<float>::ao_bake_levels);
     const double scale = levels * levels * (by_cosine ? levels / 4 : 1);
-    return static_cast<float>(bake_error_factor * std::sqrt(static_cast<double>(std::max(s.changes, 0)) / scale) / s.count);
+    const double changes = static_cast<double>(std::max(s.changes, 0)) / scale + bake_missed_changes;
+    return static_cast<float>(bake_error_factor * std::sqrt(changes) / s.count);
 }
 
 } // namespace detail

@@ -29,8 +29,8 @@ inline bake_choice choose_bake_route(const bake_job& job, std::size_t vertices)
     // Nanoseconds of one thread.
     constexpr double raster_triangle = 45;
     constexpr double raster_vertex = 25;
-    constexpr double ray = 130;
-    constexpr double ray_level = 25;
+    constexpr double ray = 100;
+    constexpr double ray_level = 14;
     const double seen = job.lines.empty() || job.lines.front().opposite > 0 ? 1.0 : 0.5; // rays of a line and vertex
     const double distance = static_cast<double>(job.reach) / std::max(job.mesh.diagonal, 1e-30);
     // Surfaces: what is within reach grows with the square of the distance.
