@@ -18,9 +18,15 @@
 
 namespace bake_test {
 
+constexpr std::array gpu_routes{ ao::bake_route::brute, ao::bake_route::tiled, ao::bake_route::packed,
+                                 ao::bake_route::hierarchy };
+
 inline const char* name_of(ao::bake_route route)
 {
-    return route == ao::bake_route::brute ? "brute" : route == ao::bake_route::tiled ? "tiled" : "packed";
+    return route == ao::bake_route::brute    ? "brute"
+           : route == ao::bake_route::tiled  ? "tiled"
+           : route == ao::bake_route::packed ? "packed"
+                                             : "hierarchy";
 }
 
 // Two objects: a sphere over a floor.
@@ -118,7 +124,7 @@ void require_reference(const Run& run, const ao::bake_job& job, const ao::bake_r
 {
     const auto expected = ao::bake_reference(job, part);
     REQUIRE(expected);
-    for (const ao::bake_route route : { ao::bake_route::brute, ao::bake_route::tiled, ao::bake_route::packed }) {
+    for (const ao::bake_route route : gpu_routes) {
         INFO(name_of(route));
         ao::bake_request request = part;
         request.route = route;
@@ -197,7 +203,7 @@ void check_progress(const Run& run)
     const auto job = job_of(sphere_on_floor(18, 2), *ao::lebedev_rule(38), {});
     REQUIRE(job.vertices() > 512);
     const auto expected = ao::bake_reference(job);
-    for (const ao::bake_route route : { ao::bake_route::brute, ao::bake_route::tiled, ao::bake_route::packed }) {
+    for (const ao::bake_route route : gpu_routes) {
         INFO(name_of(route));
         std::vector<double> shares;
         ao::bake_request request;

@@ -1,4 +1,4 @@
-// Resources of the bake's passes.
+// Resources of the bake's passes. AO_HIERARCHY: there is a tree of boxes instead of points as seen.
 #include "ao/shared/prelude.glsl"
 #include "ao/shared/vector.h"
 #include "ao/shared/bake_ray.h"
@@ -10,7 +10,22 @@ layout(binding = 1) uniform usamplerBuffer ao_triangles;
 layout(binding = 2) uniform samplerBuffer ao_points;
 layout(binding = 3) uniform samplerBuffer ao_lines;
 layout(binding = 4) uniform samplerBuffer ao_rotations;
+#ifdef AO_HIERARCHY
+layout(binding = 5) uniform usamplerBuffer ao_nodes;
+
+uvec4 ao_load_node(uint i)
+{
+    return texelFetch(ao_nodes, int(i));
+}
+#else
 layout(binding = 5) uniform samplerBuffer ao_seen_points;
+
+vec4 ao_load_seen(uint i)
+{
+    return texelFetch(ao_seen_points, int(i));
+}
+#endif
+
 layout(std430, binding = 0) buffer ao_sums_block { int ao_sums[]; };
 layout(std430, binding = 1) buffer ao_words_block { uint ao_words[]; };
 layout(std430, binding = 2) writeonly buffer ao_seen_block { vec4 ao_seen_stored[]; };
@@ -43,11 +58,6 @@ vec4 ao_load_rotation(uint i)
 void ao_add(uint i, int value)
 {
     atomicAdd(ao_sums[i], value);
-}
-
-vec4 ao_load_seen(uint i)
-{
-    return texelFetch(ao_seen_points, int(i));
 }
 
 void ao_store_seen(uint i, vec4 seen)

@@ -34,6 +34,8 @@ source source_of(detail::bake_shader shader)
         return { bake_brute_comp, bake_brute_comp_text, constant_ids, "bake, brute" };
     case detail::bake_shader::tiled:
         return { bake_tiled_comp, bake_tiled_comp_text, constant_ids, "bake, tiled" };
+    case detail::bake_shader::hierarchy:
+        return { bake_hierarchy_comp, bake_hierarchy_comp_text, constant_ids, "bake, hierarchy" };
     case detail::bake_shader::project:
         return { bake_project_comp, bake_project_comp_text, constant_ids, "bake, projection" };
     case detail::bake_shader::packed:
@@ -126,7 +128,7 @@ result<bake_sums> baker::run(const bake_job& job, const bake_request& request)
         }
     }
     const std::size_t at_once = route == bake_route::packed ? detail::packed_lines_at_once(job, *part, state.cut.scratch) : 0;
-    const auto buffers = make_bake_buffers(gl, job, *part, at_once);
+    const auto buffers = make_bake_buffers(gl, job, *part, route, at_once);
     if (!buffers) {
         return buffers.error();
     }
@@ -138,8 +140,8 @@ result<bake_sums> baker::run(const bake_job& job, const bake_request& request)
         }
         return launch_bake(state, *buffers, *program, launch, x, y);
     };
-    detail::bake_gpu_driver driver(job, *part, state.cut, state.group, execute);
-    const auto end = driver.run(route, at_once);
+    detail::bake_gpu_driver driver(job, *part, route, state.cut, state.group, execute);
+    const auto end = driver.run(at_once);
     if (!end) {
         return end.error();
     }

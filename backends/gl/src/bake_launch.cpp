@@ -27,7 +27,7 @@ std::optional<error> make_texels(const functions& gl, const char* what, const ob
 
 } // namespace
 
-result<bake_buffers> make_bake_buffers(const functions& gl, const bake_job& job, const bake_request& part,
+result<bake_buffers> make_bake_buffers(const functions& gl, const bake_job& job, const bake_request& part, bake_route route,
                                        std::size_t lines_at_once)
 {
     const detail::bake_gpu_tables t = detail::make_bake_gpu_tables(job, part);
@@ -37,16 +37,18 @@ result<bake_buffers> make_bake_buffers(const functions& gl, const bake_job& job,
         std::span<const std::byte> content;
         GLenum format;
     };
-    const std::array<table, seen_unit> tables{
+    const std::array<table, nodes_unit + 1> tables{
         { { vertices_unit, "the vertices of the bake", std::as_bytes(std::span(t.vertices)), GL_RGBA32UI },
           { triangles_unit, "the triangles of the bake", std::as_bytes(std::span(t.triangles)), GL_RGBA32UI },
           { points_unit, "the points of the bake", std::as_bytes(std::span(t.points)), GL_RGBA32F },
           { lines_unit, "the lines of the bake", std::as_bytes(std::span(t.lines)), GL_RGBA32F },
-          { rotations_unit, "the rotations of the bake", std::as_bytes(std::span(t.rotations)), GL_RGBA32F } }
+          { rotations_unit, "the rotations of the bake", std::as_bytes(std::span(t.rotations)), GL_RGBA32F },
+          { nodes_unit, "the tree of the bake", std::as_bytes(t.nodes), GL_RGBA32UI } }
     };
+    const auto read = std::span(tables).first(route == bake_route::hierarchy ? tables.size() : tables.size() - 1);
     bake_buffers made;
     buffer_maker buffers(gl);
-    for (const table& each : tables) {
+    for (const table& each : read) {
         made.tables[each.unit] = buffers.make(each.name, each.content, 0);
         if (auto wrong = make_texels(gl, each.name, made.tables[each.unit], each.format, each.content.size() / 16,
                                      made.textures[each.unit])) {

@@ -21,6 +21,7 @@ enum bake_unit : std::uint32_t {
     lines_unit,
     rotations_unit,
     seen_unit,
+    nodes_unit = seen_unit, // of the hierarchy
     bake_unit_count
 };
 
@@ -47,14 +48,14 @@ result<GLuint> bake_program_of(bake_state& state, detail::bake_shader shader,
 
 struct bake_buffers {
     std::array<object, bake_unit_count> tables;
-    std::array<object, bake_unit_count> textures; // of the tables; seen_unit's only for the packed route
+    std::array<object, bake_unit_count> textures; // of the tables; seen_unit's where the route has it
     object sums;
     object words;
     object launch;
 };
 
 // Makes the buffers of a part. lines_at_once: of the packed route, else 0.
-result<bake_buffers> make_bake_buffers(const functions& gl, const bake_job& job, const bake_request& part,
+result<bake_buffers> make_bake_buffers(const functions& gl, const bake_job& job, const bake_request& part, bake_route route,
                                        std::size_t lines_at_once);
 
 // Returns when it is done.

@@ -52,6 +52,8 @@ std::span<const std::uint32_t> code_of(detail::bake_shader shader)
         return shaders::bake_brute_comp;
     case detail::bake_shader::tiled:
         return shaders::bake_tiled_comp;
+    case detail::bake_shader::hierarchy:
+        return shaders::bake_hierarchy_comp;
     case detail::bake_shader::project:
         return shaders::bake_project_comp;
     case detail::bake_shader::packed:
@@ -134,7 +136,7 @@ result<bake_sums> baker::run(const bake_job& job, const bake_request& request)
         }
     }
     bake_buffers buffers;
-    if (const auto wrong = make_bake_buffers(state, job, *part, at_once, buffers)) {
+    if (const auto wrong = make_bake_buffers(state, job, *part, route, at_once, buffers)) {
         return *wrong;
     }
     const device& d = *state.on;
@@ -152,8 +154,8 @@ result<bake_sums> baker::run(const bake_job& job, const bake_request& request)
             d.call.CmdDispatch(commands, x, y, 1);
         });
     };
-    detail::bake_gpu_driver driver(job, *part, state.options, state.group, execute);
-    const auto end = driver.run(route, at_once);
+    detail::bake_gpu_driver driver(job, *part, route, state.options, state.group, execute);
+    const auto end = driver.run(at_once);
     if (!end) {
         return end.error();
     }

@@ -117,7 +117,8 @@ std::optional<error> make_set(const bake_state& state, bake_buffers& made)
     std::uint32_t count = 0;
     for (std::uint32_t i = 0; i < bake_slot_count; ++i) {
         const buffer& from = made.buffers[i == seen_stored_slot ? seen_slot : i];
-        if (from.handle.get() == VK_NULL_HANDLE) {
+        const bool packed = made.buffers[words_slot].handle.get() != VK_NULL_HANDLE;
+        if (from.handle.get() == VK_NULL_HANDLE || (i == seen_stored_slot && !packed)) {
             continue; // of other routes
         }
         const bool storage = i >= sums_slot;
@@ -138,21 +139,23 @@ std::optional<error> make_set(const bake_state& state, bake_buffers& made)
 
 } // namespace
 
-std::optional<error> make_bake_buffers(bake_state& state, const bake_job& job, const bake_request& part,
+std::optional<error> make_bake_buffers(bake_state& state, const bake_job& job, const bake_request& part, bake_route route,
                                        std::size_t lines_at_once, bake_buffers& made)
 {
     const device& d = *state.on;
     const detail::bake_gpu_tables t = detail::make_bake_gpu_tables(job, part);
     constexpr VkFormat words = VK_FORMAT_R32G32B32A32_UINT;
     constexpr VkFormat reals = VK_FORMAT_R32G32B32A32_SFLOAT;
-    const std::array<table, seen_slot> tables{
+    const std::array<table, nodes_slot + 1> tables{
         { { vertices_slot, "the vertices of the bake", std::as_bytes(std::span(t.vertices)), words },
           { triangles_slot, "the triangles of the bake", std::as_bytes(std::span(t.triangles)), words },
           { points_slot, "the points of the bake", std::as_bytes(std::span(t.points)), reals },
           { lines_slot, "the lines of the bake", std::as_bytes(std::span(t.lines)), reals },
-          { rotations_slot, "the rotations of the bake", std::as_bytes(std::span(t.rotations)), reals } }
+          { rotations_slot, "the rotations of the bake", std::as_bytes(std::span(t.rotations)), reals },
+          { nodes_slot, "the tree of the bake", std::as_bytes(t.nodes), words } }
     };
-    for (const table& each : tables) {
+    const auto read = std::span(tables).first(route == bake_route::hierarchy ? tables.size() : tables.size() - 1);
+    for (const table& each : read) {
         if (auto wrong =
                 make_texels(d, each.name, each.format, each.slot, each.content.size(), VK_BUFFER_USAGE_TRANSFER_DST_BIT, made)) {
             return wrong;
@@ -177,7 +180,7 @@ std::optional<error> make_bake_buffers(bake_state& state, const bake_job& job, c
             return wrong;
         }
     }
-    if (auto wrong = upload(state, tables, made)) {
+    if (auto wrong = upload(state, read, made)) {
         return wrong;
     }
     return make_set(state, made);

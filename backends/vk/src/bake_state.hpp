@@ -60,6 +60,7 @@ enum bake_slot : std::uint32_t {
     lines_slot,
     rotations_slot,
     seen_slot,
+    nodes_slot = seen_slot, // of the hierarchy
     sums_slot,
     words_slot,
     seen_stored_slot,
@@ -94,7 +95,7 @@ struct bake_buffers {
 };
 
 // Makes the buffers of a part, uploads the tables and clears the sums. lines_at_once: of the packed route, else 0.
-std::optional<error> make_bake_buffers(bake_state& state, const bake_job& job, const bake_request& part,
+std::optional<error> make_bake_buffers(bake_state& state, const bake_job& job, const bake_request& part, bake_route route,
                                        std::size_t lines_at_once, bake_buffers& made);
 std::optional<error> read_bake_sums(bake_state& state, const bake_buffers& from, std::span<bake_sum> sums);
 

@@ -12,3 +12,10 @@ struct ao_bake_box {
     int first; // triangle of a leaf, or left child; the right one follows
     int count; // triangles, 0 for inner nodes
 };
+
+// Distances to boxes round. (A function: glslang takes for ever where what is precise depends on itself around a loop.)
+AO_FN real ao_bake_beyond(real distance)
+{
+    AO_PRECISE real beyond = distance + ao_bake_margin;
+    return beyond;
+}

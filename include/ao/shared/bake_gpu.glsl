@@ -32,7 +32,7 @@ struct ao_bake_launch {
     uint more_reserved;
 };
 
-const real ao_no_occluder = real(16); // farther than any
+const real ao_no_occluder = real(1e30); // farther than any
 
 struct ao_bake_receiver {
     vec3 start;

@@ -1,6 +1,7 @@
-// Rays through a tree of boxes (bake_box.h). Callbacks: ao_bake_box ao_load_box(int node); vec3 ao_load_corner(int triangle, int corner).
-// Options: bool ao_front_only: occluders count where they turn their front to the ray; bool ao_find_nearest: else any hit.
-// N rays at once go wherever one of them goes. Visibility is the predicate's (bake_ray.h); boxes only leave out what it denies.
+// Rays through a tree of boxes (bake_box.h). Callbacks: ao_bake_box ao_load_box(int node); vec3 ao_load_corner(int triangle, int
+// corner). Options: bool ao_front_only: occluders count where they turn their front to the ray; bool ao_find_nearest: else any
+// hit. N rays at once go wherever one of them goes. Visibility is the predicate's (bake_ray.h); boxes only leave out what it
+// denies.
 
 // 1 / x, of a magnitude that a product with a coordinate keeps finite.
 AO_FN real ao_bake_inverse(real x)
@@ -40,7 +41,7 @@ AO_PASS real ao_bake_trace(ao_bake_line line, real sign, vec3 start, real reach,
     AO_PRECISE vec3 direction = vec3(line.dx * sign, line.dy * sign, line.dz * sign);
     vec3 inverse = vec3(ao_bake_inverse(direction.x), ao_bake_inverse(direction.y), ao_bake_inverse(direction.z));
     real nearest = real(-1);
-    AO_PRECISE real within = reach + ao_bake_margin; // box distances round
+    real within = ao_bake_beyond(reach);
     mask searching = wanted;
     int stack[ao_bake_stack];
     int top = 0;
@@ -64,8 +65,7 @@ AO_PASS real ao_bake_trace(ao_bake_line line, real sign, vec3 start, real reach,
                     mask nearer = hit && (nearest < real(0) || distance < nearest);
                     nearest = mix(nearest, distance, nearer);
                     if (ao_find_nearest) {
-                        AO_PRECISE real shorter = distance + ao_bake_margin;
-                        within = mix(within, shorter, nearer);
+                        within = mix(within, ao_bake_beyond(distance), nearer);
                     }
                     else {
                         searching = searching && !hit;

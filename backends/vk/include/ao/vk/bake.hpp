@@ -10,8 +10,9 @@
 // queue. Where progress ends the bake, the sums are those of all vertices that were finished along all lines of the part.
 //
 // Memory on the device, bytes: 32 a vertex, 16 a triangle, 16 a point, 48 a line, 32 a vertex of the part, 48 more where the rule
-// is turned at each; packed: bake_gpu_options::scratch and as much as two bits for every direction of 65536 vertices besides.
-// While tables are uploaded, and sums read back, once more the same on the host's side. Device features: none.
+// is turned at each; hierarchy: 64 a triangle; packed: bake_gpu_options::scratch and as much as two bits for every direction of
+// 65536 vertices besides. While tables are uploaded, and sums read back, once more the same on the host's side. Device features:
+// none.
 #pragma once
 
 #include "ao/bake_gpu.hpp"

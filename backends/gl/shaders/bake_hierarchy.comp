@@ -1,0 +1,10 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#define AO_HIERARCHY
+#include "bake.glsl"
+#include "ao/shared/bake_hierarchy.glsl"
+
+void main()
+{
+    ao_bake_main(ao_launch);
+}
