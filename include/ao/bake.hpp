@@ -225,8 +225,8 @@ inline bool merge_bake_sums(bake_sums& into, const bake_sums& next)
 
 namespace detail {
 
-// Measured on spread rules (docs/numerics.md, "Per vertex"): the error against that of points which lie on either side of the
-// boundary of what is open by chance is 0.45 times as large; the rest is for meshes that were not measured.
+// Measured on spread rules (docs/numerics.md, "Per vertex"): the error is 0.45 times that of points which lie on either side of
+// the boundary of what is open by chance. The rest is for meshes that were not measured.
 inline constexpr double bake_error_factor = 0.8;
 // Changes that may have been missed: occluders that no pair of neighbours told apart.
 inline constexpr double bake_missed_changes = 2;
