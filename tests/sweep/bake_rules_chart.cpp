@@ -259,9 +259,10 @@ std::string rules_as_svg(const std::vector<rule_panel>& panels)
                       "<title>Errors of rules on the sphere against their directions</title>\n"
                       "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n";
     int place = 0;
+    const auto row = [&] { return place / columns; };
     for (const rule_panel& panel : panels) {
-        svg += panel_at(panel, width * (place % columns), height * (place / columns));
+        svg += panel_at(panel, width * (place % columns), height * row());
         ++place;
     }
-    return svg + legend_at(width * (place % columns), height * (place / columns)) + "</svg>\n";
+    return svg + legend_at(width * (place % columns), height * row()) + "</svg>\n";
 }
