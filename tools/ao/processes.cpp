@@ -17,6 +17,13 @@ namespace {
 
 constexpr std::size_t largest_message = std::size_t{ 1 } << 30;
 
+bool started()
+{
+    int is = 0;
+    MPI_Initialized(&is);
+    return is != 0;
+}
+
 // Each piece is (bytes, how many).
 template <class Each>
 void in_pieces(char* bytes, std::size_t size, const Each& each)
@@ -33,7 +40,6 @@ processes::processes()
     if (std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr && std::getenv("PMI_SIZE") == nullptr)
         return;
     MPI_Init(nullptr, nullptr);
-    started = true;
     int rank = 0, size = 1;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm_size(MPI_COMM_WORLD, &size);
@@ -43,7 +49,7 @@ processes::processes()
 
 processes::~processes()
 {
-    if (started)
+    if (started())
         MPI_Finalize();
 }
 
@@ -71,7 +77,7 @@ std::vector<std::string> processes::gather(std::string mine) const
 bool processes::all(bool here) const
 {
     int mine = here ? 1 : 0, least = mine;
-    if (started)
+    if (started())
         MPI_Allreduce(&mine, &least, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
     return least != 0;
 }

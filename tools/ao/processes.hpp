@@ -25,7 +25,6 @@ public:
 private:
     std::size_t own = 0;
     std::size_t count = 1;
-    bool started = false;
 };
 
 } // namespace ao::tools
