@@ -68,6 +68,13 @@ inline std::span<const bake_shader> bake_shaders_of(bake_route route)
 
 inline constexpr std::size_t bake_gpu_constants = 8;
 
+// Invocations of a group. Rays through the tree share nothing, and llvmpipe takes 3 times as long for their stacks in groups of
+// 256 as in small ones.
+inline std::uint32_t bake_group_of(bake_route route, std::uint32_t group)
+{
+    return route == bake_route::hierarchy ? std::min(group, 32U) : group;
+}
+
 // By constant_id of ao/shared/bake_gpu.glsl.
 inline std::array<std::uint32_t, bake_gpu_constants> bake_gpu_constants_of(const bake_job& job, std::uint32_t group)
 {

@@ -121,7 +121,8 @@ result<bake_sums> baker::run(const bake_job& job, const bake_request& request)
         return sums;
     }
     gl.take_error();
-    const auto constants = detail::bake_gpu_constants_of(job, state.group);
+    const std::uint32_t group = detail::bake_group_of(route, state.group);
+    const auto constants = detail::bake_gpu_constants_of(job, group);
     for (const detail::bake_shader shader : detail::bake_shaders_of(route)) {
         if (const auto program = bake_program_of(state, shader, constants); !program) {
             return program.error();
@@ -140,7 +141,7 @@ result<bake_sums> baker::run(const bake_job& job, const bake_request& request)
         }
         return launch_bake(state, *buffers, *program, launch, x, y);
     };
-    detail::bake_gpu_driver driver(job, *part, route, state.cut, state.group, execute);
+    detail::bake_gpu_driver driver(job, *part, route, state.cut, group, execute);
     const auto end = driver.run(at_once);
     if (!end) {
         return end.error();

@@ -129,7 +129,8 @@ result<bake_sums> baker::run(const bake_job& job, const bake_request& request)
         return sums;
     }
     const std::size_t at_once = route == bake_route::packed ? detail::packed_lines_at_once(job, *part, state.options.scratch) : 0;
-    const auto constants = detail::bake_gpu_constants_of(job, state.group);
+    const std::uint32_t group = detail::bake_group_of(route, state.group);
+    const auto constants = detail::bake_gpu_constants_of(job, group);
     for (const detail::bake_shader shader : detail::bake_shaders_of(route)) {
         if (const auto pipeline = bake_pipeline_of(state, shader, constants); !pipeline) {
             return pipeline.error();
@@ -154,7 +155,7 @@ result<bake_sums> baker::run(const bake_job& job, const bake_request& request)
             d.call.CmdDispatch(commands, x, y, 1);
         });
     };
-    detail::bake_gpu_driver driver(job, *part, route, state.options, state.group, execute);
+    detail::bake_gpu_driver driver(job, *part, route, state.options, group, execute);
     const auto end = driver.run(at_once);
     if (!end) {
         return end.error();
