@@ -25,7 +25,7 @@ struct bake_choice {
     long long seed = 1;
 
     std::string rule_text;      // of the file, if the rule is one
-    std::string bits = "exact"; // or of a route that has its own: embree, cube-maps
+    std::string bits = "exact"; // or of a route that has its own: embree
 };
 [[nodiscard]] std::string to_text(const bake_choice& c);
 // Throws `error`.
