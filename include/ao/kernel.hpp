@@ -76,7 +76,7 @@ constexpr std::array<float, max_taps> stratified(random_stream& random, int coun
 }
 
 // The `taps` offsets of a kernel, w = 0. Unused entries are zero.
-constexpr std::array<glm::vec4, max_taps> make_kernel(kernel_type kernel, int taps, std::uint32_t seed)
+constexpr std::array<glm::vec4, max_taps> make_kernel(method chosen, int taps, std::uint32_t seed)
 {
     std::array<glm::vec4, max_taps> offsets{};
     random_stream random(seed);
@@ -85,10 +85,10 @@ constexpr std::array<glm::vec4, max_taps> make_kernel(kernel_type kernel, int ta
     const std::array<float, max_taps> w = stratified(random, taps);
     for (std::size_t i = 0; i < static_cast<std::size_t>(taps); ++i) {
         glm::vec3 offset(0.0F);
-        if (kernel == kernel_type::box) {
+        if (chosen == method::box) {
             offset = box_offset(u[i], v[i], w[i]);
         }
-        else if (kernel == kernel_type::hemisphere) {
+        else if (chosen == method::hemisphere) {
             offset = half_ball_offset(static_cast<double>(u[i]), static_cast<double>(v[i]), static_cast<double>(w[i]));
         }
         else {

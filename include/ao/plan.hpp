@@ -335,7 +335,7 @@ constexpr bool same_structure(const plan& a, const plan& b)
 {
     if (a.passes.size() != b.passes.size() || a.facts.width != b.facts.width || a.facts.height != b.facts.height ||
         a.facts.depth_format != b.facts.depth_format || a.facts.normal_format != b.facts.normal_format ||
-        a.facts.output_format != b.facts.output_format || a.settings.kernel != b.settings.kernel ||
+        a.facts.output_format != b.facts.output_format || a.settings.method != b.settings.method ||
         a.settings.seed != b.settings.seed) {
         return false;
     }

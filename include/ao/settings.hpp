@@ -8,7 +8,8 @@
 
 namespace ao {
 
-enum class kernel_type {
+// How visibility is estimated.
+enum class method {
     box,        // paper 1 as printed: uniform in the half box, 48 % of it outside the ball
     hemisphere, // uniform in the half ball
     halton,     // half ball, cosine-weighted directions, uniform in distance; Halton bases 2, 3, 5
@@ -18,7 +19,7 @@ inline constexpr int max_taps = 1024;
 inline constexpr int max_filter = 31;
 
 struct settings {
-    kernel_type kernel = kernel_type::hemisphere;
+    ao::method method = ao::method::hemisphere;
     int taps = 32;       // 1 ... max_taps; cost is linear in it
     float radius = 1.0F; // scene units, (0, 1e15]
     float bias = 0.02F;  // least depth difference that occludes, scene units, [0, 1e15]; raise it against acne
@@ -33,8 +34,8 @@ struct settings {
 constexpr std::optional<error> validate(const settings& s)
 {
     constexpr float limit = 1e15F;
-    if (s.kernel != kernel_type::box && s.kernel != kernel_type::hemisphere && s.kernel != kernel_type::halton) {
-        return error(errc::invalid_settings, "unknown kernel");
+    if (s.method != method::box && s.method != method::hemisphere && s.method != method::halton) {
+        return error(errc::invalid_settings, "unknown method");
     }
     if (s.taps < 1 || s.taps > max_taps) {
         return error(errc::invalid_settings, "taps must be 1 to 1024");

@@ -148,7 +148,7 @@ fragility fragile_share(depth_choice depth, normal_choice normal, bool parallel)
     input.facts.depth_format = depth.format;
     input.facts.normals = normal.source;
     input.facts.normal_format = normal.format;
-    input.settings = { .kernel = kernel_type::hemisphere, .taps = 32, .radius = 0.8F, .filter = 1 };
+    input.settings = { .method = method::hemisphere, .taps = 32, .radius = 0.8F, .filter = 1 };
     const camera_projection& projection = input.camera.projection;
     const surfaces seen = make_scene(width, height, projection);
     const picture depths = pack_depth(seen.depth, width, height, depth.source, depth.format, projection);

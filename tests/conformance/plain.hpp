@@ -76,7 +76,7 @@ public:
 
     ao::result<program> prepare(const ao::plan& p)
     {
-        program made{ ao::make_kernel(p.settings.kernel, p.settings.taps, p.settings.seed), {} };
+        program made{ ao::make_kernel(p.settings.method, p.settings.taps, p.settings.seed), {} };
         plain::image& tile = made.pictures[static_cast<std::size_t>(ao::image_id::rotation)];
         tile = { ao::tile_size, ao::tile_size, {} };
         for (const glm::vec2 helper : ao::make_rotation_tile(p.settings.seed)) {

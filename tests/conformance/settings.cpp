@@ -56,8 +56,8 @@ struct change {
 };
 
 const std::vector<change> changes{
-    { "kernel box", [](frame_input& in) { in.settings.kernel = kernel_type::box; } },
-    { "kernel halton", [](frame_input& in) { in.settings.kernel = kernel_type::halton; } },
+    { "kernel box", [](frame_input& in) { in.settings.method = method::box; } },
+    { "kernel halton", [](frame_input& in) { in.settings.method = method::halton; } },
     { "taps", [](frame_input& in) { in.settings.taps = 33; } },
     { "radius", [](frame_input& in) { in.settings.radius = 0.85F; } },
     { "bias", [](frame_input& in) { in.settings.bias = 0.03F; } },

@@ -9,9 +9,9 @@ using namespace static_test;
 constexpr int few = 8;
 
 template <class Inside>
-constexpr bool all_inside(ao::kernel_type kernel, std::uint32_t seed, Inside inside)
+constexpr bool all_inside(ao::method method, std::uint32_t seed, Inside inside)
 {
-    const auto offsets = ao::make_kernel(kernel, few, seed);
+    const auto offsets = ao::make_kernel(method, few, seed);
     for (int i = 0; i < few; ++i) {
         const glm::vec4& s = offsets[static_cast<std::size_t>(i)];
         if (!inside(s.x, s.y, s.z) || s.w != 0.0F) {
@@ -27,18 +27,18 @@ constexpr auto in_half_box = [](float x, float y, float z) {
 };
 constexpr auto in_half_ball = [](float x, float y, float z) { return z >= 0.0F && x * x + y * y + z * z <= 1.000001F; };
 
-static_assert(all_inside(ao::kernel_type::box, 1, in_half_box));
-static_assert(all_inside(ao::kernel_type::box, 77, in_half_box));
-static_assert(all_inside(ao::kernel_type::hemisphere, 1, in_half_ball));
-static_assert(all_inside(ao::kernel_type::hemisphere, 77, in_half_ball));
-static_assert(all_inside(ao::kernel_type::halton, 1, in_half_ball));
+static_assert(all_inside(ao::method::box, 1, in_half_box));
+static_assert(all_inside(ao::method::box, 77, in_half_box));
+static_assert(all_inside(ao::method::hemisphere, 1, in_half_ball));
+static_assert(all_inside(ao::method::hemisphere, 77, in_half_ball));
+static_assert(all_inside(ao::method::halton, 1, in_half_ball));
 
 // u = 1/2, v = 1/3, w = 1/5: (1/3) (cos pi sqrt(4/5), sin pi sqrt(4/5), sqrt(1/5)).
-constexpr glm::vec4 first = ao::make_kernel(ao::kernel_type::halton, 1, 1)[0];
+constexpr glm::vec4 first = ao::make_kernel(ao::method::halton, 1, 1)[0];
 static_assert(near(first.x, -0.29814239699997197F, 1e-7F) && near(first.y, 0.0F, 1e-7F) &&
               near(first.z, 0.14907119849998598F, 1e-7F));
 // u = 1/4, v = 2/3, w = 2/5: (2/3) (0, sqrt(3/5), sqrt(2/5)).
-constexpr glm::vec4 second = ao::make_kernel(ao::kernel_type::halton, 2, 1)[1];
+constexpr glm::vec4 second = ao::make_kernel(ao::method::halton, 2, 1)[1];
 static_assert(near(second.x, 0.0F, 1e-7F) && near(second.y, 0.51639777949432220F, 1e-7F) &&
               near(second.z, 0.42163702135578396F, 1e-7F));
 
@@ -47,11 +47,10 @@ constexpr bool same(const glm::vec4& a, const glm::vec4& b)
     return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 // The seed matters to the random kernels and to them only; more taps continue the Halton sequence.
-static_assert(!same(ao::make_kernel(ao::kernel_type::box, 1, 1)[0], ao::make_kernel(ao::kernel_type::box, 1, 2)[0]));
-static_assert(!same(ao::make_kernel(ao::kernel_type::hemisphere, 1, 1)[0],
-                    ao::make_kernel(ao::kernel_type::hemisphere, 1, 2)[0]));
-static_assert(same(ao::make_kernel(ao::kernel_type::halton, 1, 1)[0], ao::make_kernel(ao::kernel_type::halton, 1, 2)[0]));
-static_assert(same(ao::make_kernel(ao::kernel_type::halton, 4, 1)[3], ao::make_kernel(ao::kernel_type::halton, 5, 1)[3]));
+static_assert(!same(ao::make_kernel(ao::method::box, 1, 1)[0], ao::make_kernel(ao::method::box, 1, 2)[0]));
+static_assert(!same(ao::make_kernel(ao::method::hemisphere, 1, 1)[0], ao::make_kernel(ao::method::hemisphere, 1, 2)[0]));
+static_assert(same(ao::make_kernel(ao::method::halton, 1, 1)[0], ao::make_kernel(ao::method::halton, 1, 2)[0]));
+static_assert(same(ao::make_kernel(ao::method::halton, 4, 1)[3], ao::make_kernel(ao::method::halton, 5, 1)[3]));
 
 // The edges of the unit cube.
 static_assert(ao::cosine_linear_offset(0, 0, 0).z == 0.0F);

@@ -171,7 +171,7 @@ static_assert(!ao::same_structure(filtered, changed(with([](auto& s) { s.filter 
 static_assert(!ao::same_structure(filtered, changed(with([](auto& s) { s.seed = 9; }))));
 static_assert(ao::same_structure(filtered, changed(with([](auto& s) { s.thickness = 9; }))));
 static_assert(!ao::same_structure(filtered, changed(with([](auto& s) { s.thickness = inf; }))));
-static_assert(!ao::same_structure(filtered, changed(with([](auto& s) { s.kernel = ao::kernel_type::box; }))));
+static_assert(!ao::same_structure(filtered, changed(with([](auto& s) { s.method = ao::method::box; }))));
 static_assert(!ao::same_structure(filtered, from_hardware));
 
 constexpr bool refused(const ao::settings& s, const ao::facts& f, const ao::camera& c, ao::errc code)

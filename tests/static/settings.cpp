@@ -30,7 +30,7 @@ static_assert(accepted({}));
 static_assert(ao::checked({}).taps == 32);
 static_assert(ao::checked(with([](auto& s) { s.radius = 2.5F; })).radius == 2.5F);
 
-static_assert(refused(with([](auto& s) { s.kernel = static_cast<ao::kernel_type>(3); }), "kernel"));
+static_assert(refused(with([](auto& s) { s.method = static_cast<ao::method>(3); }), "method"));
 static_assert(refused(with([](auto& s) { s.taps = 0; }), "taps"));
 static_assert(refused(with([](auto& s) { s.taps = -1; }), "taps"));
 static_assert(refused(with([](auto& s) { s.taps = 1000000; }), "taps"));

@@ -64,16 +64,16 @@ level_inputs inputs_of(const ao::tools::scene& s, const ao::tools::ray_tree& tre
     return in;
 }
 
-const char* name_of(ao::kernel_type kernel)
+const char* name_of(ao::method method)
 {
-    return kernel == ao::kernel_type::box ? "box" : kernel == ao::kernel_type::hemisphere ? "hemisphere" : "halton";
+    return method == ao::method::box ? "box" : method == ao::method::hemisphere ? "hemisphere" : "halton";
 }
 
 std::vector<float> agreed_picture(const std::vector<ao::host::runner*>& runners, const ao::settings& s, const level_inputs& in)
 {
     std::vector<float> first;
     for (ao::host::runner* r : runners) {
-        INFO(r->name() << " beside " << runners.front()->name() << ": " << name_of(s.kernel) << ", " << s.taps
+        INFO(r->name() << " beside " << runners.front()->name() << ": " << name_of(s.method) << ", " << s.taps
                        << " taps, thickness " << s.thickness);
         auto drawn = r->run(s, in.facts, in.camera, in.depth, in.normal);
         INFO((drawn ? std::string() : std::string(drawn.error().reason())));

@@ -33,8 +33,8 @@ struct level_inputs {
 };
 level_inputs inputs_of(const ao::tools::scene& s, const ao::tools::ray_tree& tree, const level_view& view, int width, int height);
 
-inline constexpr ao::kernel_type all_kernels[] = { ao::kernel_type::box, ao::kernel_type::hemisphere, ao::kernel_type::halton };
-const char* name_of(ao::kernel_type kernel);
+inline constexpr ao::method all_methods[] = { ao::method::box, ao::method::hemisphere, ao::method::halton };
+const char* name_of(ao::method method);
 
 // Runs the same frame on each, checks that no pixel differs in any bit, and that there is something to differ.
 // Returns the picture.

@@ -43,9 +43,9 @@ void sweep_view(const runner_set& runners, const ao::tools::scene& s, const ao::
     ao::settings settings;
     settings.radius = view.radius;
     settings.filter = 5;
-    for (const ao::kernel_type kernel : all_kernels) {
-        settings.kernel = kernel;
-        std::printf("%-8s %-10s", view.name.c_str(), name_of(kernel));
+    for (const ao::method method : all_methods) {
+        settings.method = method;
+        std::printf("%-8s %-10s", view.name.c_str(), name_of(method));
         for (const float thickness : { ao::settings{}.thickness, std::numeric_limits<float>::infinity() }) {
             settings.thickness = thickness;
             for (const int taps : { 8, 32, 128 }) {
@@ -55,7 +55,7 @@ void sweep_view(const runner_set& runners, const ao::tools::scene& s, const ao::
                     continue;
                 const auto e = ao::tools::error_against(picture, truth->a, truth->b, in.surfaces.hit);
                 std::printf(" %8.4f %+8.4f", e.rmse, e.bias);
-                if (view.name == "hall" && kernel == ao::kernel_type::box)
+                if (view.name == "hall" && method == ao::method::box)
                     CHECK(e.rmse <= promised_rmse);
                 // With infinite thickness silhouettes darken what lies far behind them: on an open view like "rocks" more
                 // than there is to see. That is why there is a limit, and what it is for is checked here.

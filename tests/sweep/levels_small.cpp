@@ -19,8 +19,8 @@ TEST_CASE("all backends agree on a view of each level")
         ao::settings settings;
         settings.taps = 8;
         settings.radius = view.radius;
-        for (const ao::kernel_type kernel : all_kernels) {
-            settings.kernel = kernel;
+        for (const ao::method method : all_methods) {
+            settings.method = method;
             agreed_picture(runners, settings, in);
         }
     }

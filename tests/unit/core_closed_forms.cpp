@@ -33,7 +33,7 @@ double half_pixel_step(const viewer& v, const solid& scene)
 
 TEMPLATE_TEST_CASE("An open plane is open at every tilt, exactly", "[core][closed]", float, double, lanes8)
 {
-    const auto kernel = GENERATE(ao::kernel_type::box, ao::kernel_type::hemisphere, ao::kernel_type::halton);
+    const auto kernel = GENERATE(ao::method::box, ao::method::hemisphere, ao::method::halton);
     const auto source = GENERATE(ao::normal_source::vector, ao::normal_source::from_depth);
     viewer v{ 28, 21, 0.3, false };
     v.parallel = GENERATE(false, true);
@@ -47,7 +47,7 @@ TEMPLATE_TEST_CASE("An open plane is open at every tilt, exactly", "[core][close
             const solid scene = plane(n, -5 * n.z);
             const pictures p = v.picture(scene);
             ao::settings s;
-            s.kernel = kernel;
+            s.method = kernel;
             s.taps = 32;
             s.filter = 1;
             s.thickness = inf;
@@ -149,7 +149,7 @@ TEST_CASE("Offsets behind the eye and off the picture are open", "[core][closed]
             p.depth[p.index(58, y)] = 4.5F;
             p.depth[p.index(59, y)] = 4.5F;
         }
-        s.kernel = ao::kernel_type::hemisphere;
+        s.method = ao::method::hemisphere;
         s.taps = ao::max_taps;
         const auto raw = run_occlusion<float>(plan_for(p, s, v.camera(), true), picture_resources<float>(p, s));
         // Beside the wall, offsets below its top and beyond its edge: h = 1/20 of the radius away. Cut off at .5 of the height.
@@ -236,7 +236,7 @@ std::vector<closed_case> closed_cases()
 
 TEST_CASE("Crease, sphere and disc: unbiased, and within the sampling law", "[core][closed]")
 {
-    const auto kernel = GENERATE(ao::kernel_type::box, ao::kernel_type::hemisphere, ao::kernel_type::halton);
+    const auto kernel = GENERATE(ao::method::box, ao::method::hemisphere, ao::method::halton);
     const float thickness = GENERATE(std::numeric_limits<float>::infinity(), 0.5F);
     static const std::vector<closed_case> cases = closed_cases();
     double all_squares = 0;
@@ -244,7 +244,7 @@ TEST_CASE("Crease, sphere and disc: unbiased, and within the sampling law", "[co
     for (const closed_case& c : cases) {
         const pictures buffer = c.view.picture(c.scene);
         ao::settings s;
-        s.kernel = kernel;
+        s.method = kernel;
         s.taps = 32;
         s.bias = 0.02F;
         s.thickness = thickness;
@@ -283,14 +283,14 @@ TEST_CASE("Crease, sphere and disc: unbiased, and within the sampling law", "[co
         CHECK(occluded >= 4);
         all_squares += squares;
         all_law += law;
-        if (kernel != ao::kernel_type::halton) {
+        if (kernel != ao::method::halton) {
             // Independent seeds: the mean error is within four of its standard errors.
             CHECK(std::abs(mean) < 4 * std::sqrt(mean_variance));
         }
     }
     // The random kernels are stratified and so not above the law of independent taps; Halton's are well below.
     CAPTURE(static_cast<int>(kernel), thickness, all_squares / all_law);
-    CHECK(all_squares < (kernel == ao::kernel_type::halton ? 0.7 : 1.0) * all_law);
+    CHECK(all_squares < (kernel == ao::method::halton ? 0.7 : 1.0) * all_law);
 }
 
 TEST_CASE("The crease in closed form", "[core][closed]")
@@ -304,7 +304,7 @@ TEST_CASE("The crease in closed form", "[core][closed]")
     const solid scene = both(plane(up, dot(up, { 0, 0, -5 })), plane(left, dot(left, { 0.8, 0, -5 })));
     const pictures buffer = v.picture(scene);
     ao::settings s;
-    s.kernel = ao::kernel_type::hemisphere;
+    s.method = ao::method::hemisphere;
     s.taps = ao::max_taps;
     s.bias = 0.003F;
     s.thickness = inf;
@@ -356,8 +356,8 @@ TEST_CASE("Every setting changes the picture", "[core][closed]")
         return render(s) != reference;
     };
     CHECK(render(base) == reference);
-    CHECK(changed([](ao::settings& s) { s.kernel = ao::kernel_type::box; }));
-    CHECK(changed([](ao::settings& s) { s.kernel = ao::kernel_type::halton; }));
+    CHECK(changed([](ao::settings& s) { s.method = ao::method::box; }));
+    CHECK(changed([](ao::settings& s) { s.method = ao::method::halton; }));
     CHECK(changed([](ao::settings& s) { s.taps = 31; }));
     CHECK(changed([](ao::settings& s) { s.radius = 1.1F; }));
     CHECK(changed([](ao::settings& s) { s.bias = 0.08F; }));

@@ -77,7 +77,7 @@ constexpr inputs fixed = make_inputs();
 
 // A picture computed while compiling.
 constexpr int taps = 4;
-constexpr auto kernel = ao::make_kernel(ao::kernel_type::halton, taps, 1);
+constexpr auto kernel = ao::make_kernel(ao::method::halton, taps, 1);
 struct little_scene {
     constexpr float depth(glm::ivec2 p) const { return p.x < 3 ? 2.0F : 2.5F + 0.125F * static_cast<float>(p.y); }
     constexpr m::vec4 normal(glm::ivec2 p) const { return { 0.25F * static_cast<float>(p.x - 3), 0.1F, 1.0F, 0.0F }; }
@@ -97,7 +97,7 @@ constexpr std::array<float, side * side> render(Hide hide)
     f.width = side;
     f.height = side;
     ao::settings s;
-    s.kernel = ao::kernel_type::halton;
+    s.method = ao::method::halton;
     s.taps = taps;
     s.filter = 1;
     const ao::plan p = *ao::make_plan(s, f, { ao::make_projection({ -0.5, 0.5, -0.5, 0.5, 0.1, 100 }), {}, 1e10F });
@@ -144,12 +144,12 @@ TEST_CASE("Square roots: constexpr equals run time, correctly rounded", "[core][
 
 TEST_CASE("Kernels: constexpr equals run time", "[core][constexpr]")
 {
-    static constexpr auto box = ao::make_kernel(ao::kernel_type::box, 8, 3);
-    static constexpr auto ball = ao::make_kernel(ao::kernel_type::hemisphere, 8, 3);
-    static constexpr auto halton = ao::make_kernel(ao::kernel_type::halton, 8, 3);
-    CHECK(box == ao::make_kernel(ao::kernel_type::box, hidden(8), hidden(3U)));
-    CHECK(ball == ao::make_kernel(ao::kernel_type::hemisphere, hidden(8), hidden(3U)));
-    CHECK(halton == ao::make_kernel(ao::kernel_type::halton, hidden(8), hidden(3U)));
+    static constexpr auto box = ao::make_kernel(ao::method::box, 8, 3);
+    static constexpr auto ball = ao::make_kernel(ao::method::hemisphere, 8, 3);
+    static constexpr auto halton = ao::make_kernel(ao::method::halton, 8, 3);
+    CHECK(box == ao::make_kernel(ao::method::box, hidden(8), hidden(3U)));
+    CHECK(ball == ao::make_kernel(ao::method::hemisphere, hidden(8), hidden(3U)));
+    CHECK(halton == ao::make_kernel(ao::method::halton, hidden(8), hidden(3U)));
 }
 
 TEST_CASE("Projections: constexpr equals run time", "[core][constexpr]")

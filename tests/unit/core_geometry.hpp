@@ -109,18 +109,18 @@ struct viewer {
 };
 
 // A point of a kernel's density, normal along +z, by rejection from its definition.
-inline glm::dvec3 kernel_point(ao::kernel_type kernel, std::mt19937_64& engine)
+inline glm::dvec3 kernel_point(ao::method kernel, std::mt19937_64& engine)
 {
     std::uniform_real_distribution<double> unit(0, 1);
     const auto box = [&] { return glm::dvec3(2 * unit(engine) - 1, 2 * unit(engine) - 1, unit(engine)); };
-    if (kernel == ao::kernel_type::box) {
+    if (kernel == ao::method::box) {
         return box();
     }
     glm::dvec3 p = box();
     while (dot(p, p) > 1 || dot(p, p) == 0) {
         p = box();
     }
-    if (kernel == ao::kernel_type::hemisphere) {
+    if (kernel == ao::method::hemisphere) {
         return p;
     }
     // Cosine-weighted: a uniform point of the disc, lifted to the half sphere (Malley); distance uniform.
@@ -147,7 +147,7 @@ inline double expected_occlusion(const viewer& view, const solid& scene, const p
     std::mt19937_64 engine(static_cast<std::uint64_t>(row * 65536 + column));
     int hits = 0;
     for (int i = 0; i < samples; ++i) {
-        const glm::dvec3 offset = kernel_point(s.kernel, engine);
+        const glm::dvec3 offset = kernel_point(s.method, engine);
         const glm::dvec3 a = p + (t * offset.x + b * offset.y + n * offset.z) * static_cast<double>(s.radius);
         const glm::dvec2 texel = view.pixel(a);
         if (texel.x < 0) {

@@ -133,7 +133,7 @@ TEST_CASE("Stratified numbers: one per stratum, in random order", "[core][kernel
 
 TEST_CASE("Random kernels have their density's mean, over seeds", "[core][kernel]")
 {
-    const auto type = GENERATE(ao::kernel_type::box, ao::kernel_type::hemisphere);
+    const auto type = GENERATE(ao::method::box, ao::method::hemisphere);
     const int taps = GENERATE(1, 5, 32);
     glm::dvec3 mean(0);
     double zz = 0;
@@ -146,7 +146,7 @@ TEST_CASE("Random kernels have their density's mean, over seeds", "[core][kernel
             zz += s.z * s.z / (taps * seeds);
         }
     }
-    const bool box = type == ao::kernel_type::box;
+    const bool box = type == ao::method::box;
     const double error = 4 * std::sqrt(1.0 / 3 / (taps * seeds));
     CHECK(std::abs(mean.x) < error);
     CHECK(std::abs(mean.y) < error);
@@ -214,7 +214,7 @@ TEST_CASE("Moments of the densities are the closed forms", "[core][kernel]")
 TEST_CASE("The Halton kernel's moments converge like 1 / N", "[core][kernel]")
 {
     const int taps = GENERATE(32, 128, 1024);
-    const auto kernel = ao::make_kernel(ao::kernel_type::halton, taps, 1);
+    const auto kernel = ao::make_kernel(ao::method::halton, taps, 1);
     glm::dvec3 mean(0);
     double zz = 0;
     for (int i = 0; i < taps; ++i) {
@@ -263,7 +263,7 @@ TEST_CASE("The warp can be undone, and its edges are inside", "[core][kernel]")
 
 TEST_CASE("Every kernel stays in its solid for any number of taps and any seed", "[core][kernel]")
 {
-    const auto type = GENERATE(ao::kernel_type::box, ao::kernel_type::hemisphere, ao::kernel_type::halton);
+    const auto type = GENERATE(ao::method::box, ao::method::hemisphere, ao::method::halton);
     for (const std::uint32_t seed : { 0U, 1U, 12345U, 0xffffffffU }) {
         for (const int taps : { 1, 32, ao::max_taps }) {
             const auto kernel = ao::make_kernel(type, taps, seed);
@@ -272,7 +272,7 @@ TEST_CASE("Every kernel stays in its solid for any number of taps and any seed",
                 CHECK(s.z >= 0.0F);
                 CHECK(s.w == 0.0F);
                 CHECK((std::abs(s.x) <= 1.0F && std::abs(s.y) <= 1.0F && s.z <= 1.0F));
-                CHECK((type == ao::kernel_type::box || radius(glm::dvec3(s)) <= 1 + 1e-7));
+                CHECK((type == ao::method::box || radius(glm::dvec3(s)) <= 1 + 1e-7));
                 CHECK((i < taps || (s.x == 0.0F && s.y == 0.0F && s.z == 0.0F)));
             }
         }

@@ -25,7 +25,7 @@ struct disc_point {
 std::vector<disc_point> halton_directions(int count)
 {
     std::vector<disc_point> points;
-    const auto kernel = ao::make_kernel(ao::kernel_type::halton, count, 1);
+    const auto kernel = ao::make_kernel(ao::method::halton, count, 1);
     for (int i = 0; i < count; ++i) {
         const glm::dvec3 s(kernel[static_cast<std::size_t>(i)]);
         const double r = std::sqrt(s.x * s.x + s.y * s.y + s.z * s.z);

@@ -50,7 +50,7 @@ struct picture_resources {
 
     picture_resources(const pictures& p, const ao::settings& s)
         : source(&p),
-          kernel(ao::make_kernel(s.kernel, s.taps, s.seed)),
+          kernel(ao::make_kernel(s.method, s.taps, s.seed)),
           tile(ao::make_rotation_tile(s.seed))
     {
     }

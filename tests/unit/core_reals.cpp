@@ -87,11 +87,11 @@ TEMPLATE_TEST_CASE("Lanes render the picture of float", "[core][reals]", lanes4,
 {
     const auto source = GENERATE(ao::normal_source::vector, ao::normal_source::from_depth);
     const bool parallel = GENERATE(false, true);
-    const auto kernel = GENERATE(ao::kernel_type::box, ao::kernel_type::hemisphere, ao::kernel_type::halton);
+    const auto kernel = GENERATE(ao::method::box, ao::method::hemisphere, ao::method::halton);
     for (const auto& size : { std::array{ 1, 1 }, { 1, 7 }, { 19, 1 }, { 33, 14 } }) {
         const pictures p = rough_scene(size[0], size[1], 5);
         ao::settings s;
-        s.kernel = kernel;
+        s.method = kernel;
         s.taps = 8;
         s.thickness = parallel ? 1.0F : std::numeric_limits<float>::infinity();
         CHECK(render<TestType>(p, s, source, parallel) == render<float>(p, s, source, parallel));

@@ -118,7 +118,7 @@ seen_scene pit()
             s.buffer.depth[s.buffer.index(x, y)] = 8.0F;
         }
     }
-    s.settings.kernel = ao::kernel_type::hemisphere;
+    s.settings.method = ao::method::hemisphere;
     s.settings.radius = 2;
     s.settings.thickness = std::numeric_limits<float>::infinity();
     s.settings.filter = 1;

@@ -82,7 +82,7 @@ TEST_CASE("bad requests end with one line and status 1", "[tools][program]")
         { { "render", "courtyard", "--filter", "4" }, "filter" },
         { { "render", "courtyard", "--filter", "0" }, "filter" },
         { { "render", "courtyard", "--filter", "33" }, "filter" },
-        { { "render", "courtyard", "--kernel", "cube" }, "--kernel" },
+        { { "render", "courtyard", "--method", "cube" }, "--method" },
         { { "render", "courtyard", "--backend", "metal" }, "--backend" },
         { { "render", "courtyard", "--lanes", "3" }, "--lanes" },
         { { "render", "courtyard", "--route", "raster" }, "--route" },

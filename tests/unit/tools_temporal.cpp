@@ -49,7 +49,7 @@ TEST_CASE("bad requests for an animation end with one line and status 1", "[tool
         { { "--history", "packed" }, "--history requires --temporal" },
         { { "--temporal", "--shade" }, "--shade" },
         { { "--temporal", "--taps", "8" }, "--taps" },
-        { { "--temporal", "--kernel", "box" }, "--kernel" },
+        { { "--temporal", "--method", "box" }, "--method" },
         { { "--temporal", "--route", "fragment" }, "--route fragment" },
         { { "--temporal", "--frames", "0" }, "--frames" },
         { { "--temporal", "--motion", "spiral" }, "spiral" },

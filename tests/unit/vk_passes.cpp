@@ -146,12 +146,12 @@ TEST_CASE("Vulkan equals scalar C++ for every depth and normal, filtered or not"
 TEST_CASE("Vulkan equals scalar C++ for every kernel, option and output")
 {
     const g_buffer g = random_g_buffer(width, height, 2);
-    for (const auto kernel : { ao::kernel_type::box, ao::kernel_type::hemisphere, ao::kernel_type::halton }) {
+    for (const auto kernel : { ao::method::box, ao::method::hemisphere, ao::method::halton }) {
         for (const int option : { 0, 1, 2, 3 }) {
             for (const auto output : { pixel_format::r32f, pixel_format::r8 }) {
                 for (const int filter : { 1, 3 }) {
                     job j = make_job(depth_kinds[3], normal_kinds[0], filter);
-                    j.settings.kernel = kernel;
+                    j.settings.method = kernel;
                     j.settings.seed = 7;
                     j.settings.taps = option == 0 ? 1 : 33;
                     j.settings.thickness = option == 1 ? 0.3F : j.settings.thickness;

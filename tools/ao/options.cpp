@@ -100,13 +100,13 @@ void parse_inputs(const render_arguments& a, facts& f)
 
 ao::settings parse_settings(const render_arguments& a)
 {
-    static constexpr std::array<std::pair<std::string_view, kernel_type>, 3> kernels{ {
-        { "box", kernel_type::box },
-        { "hemisphere", kernel_type::hemisphere },
-        { "halton", kernel_type::halton },
+    static constexpr std::array<std::pair<std::string_view, ao::method>, 3> methods{ {
+        { "box", method::box },
+        { "hemisphere", method::hemisphere },
+        { "halton", method::halton },
     } };
     ao::settings s;
-    s.kernel = choose("--kernel", a.kernel, kernels);
+    s.method = choose("--method", a.method, methods);
     s.taps = a.taps;
     s.radius = static_cast<float>(a.radius);
     s.bias = static_cast<float>(a.bias);
@@ -132,7 +132,7 @@ void add_render_options(CLI::App& command, render_arguments& a)
     command.add_option("--device", a.device, "part of the GL or Vulkan device's name; without it llvmpipe and lavapipe");
     command.add_option("--route", a.route, "of gl: compute|fragment|all");
     command.add_option("--lanes", a.lanes, "of cpu: auto|scalar|4|8|16");
-    command.add_option("--kernel", a.kernel, "box|hemisphere|halton");
+    command.add_option("--method", a.method, "box|hemisphere|halton");
     command.add_option("--taps", a.taps, "per pixel, 1 to 1024");
     command.add_option("--radius", a.radius, "scene units");
     command.add_option("--bias", a.bias, "scene units");

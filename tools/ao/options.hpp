@@ -53,7 +53,7 @@ struct render_options {
 
 // Adds the subcommand's options; `read` is what they are parsed into.
 struct render_arguments {
-    std::string scene, backend = "all", device, route = "all", lanes = "auto", kernel = "hemisphere", depth;
+    std::string scene, backend = "all", device, route = "all", lanes = "auto", method = "hemisphere", depth;
     std::string normals = "rgba16f", size = "1280x720", eye, projection = "perspective", out, json, thickness;
     std::string gbuffer = "raster", blend, lights;
     int taps = 32, filter = 5, frames = 5;

@@ -105,7 +105,7 @@ std::string json_of(const render_result& r)
                     { "near", r.frustum.near },
                     { "far", number_or_null(static_cast<double>(r.frustum.far)) },
                     { "projection", projection_text(o.projection) } };
-    j["settings"] = { { "kernel", kernel_text(o.settings.kernel) },
+    j["settings"] = { { "method", method_text(o.settings.method) },
                       { "taps", o.settings.taps },
                       { "radius", o.settings.radius },
                       { "bias", o.settings.bias },

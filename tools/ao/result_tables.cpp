@@ -138,7 +138,7 @@ report_data tables_of(const render_result& r)
         { "camera", "eye " + text(c.eye.x) + ", " + text(c.eye.y) + ", " + text(c.eye.z) + "; yaw " + text(c.yaw) + "°, pitch " +
                         text(c.pitch) + "°, vertical field of view " + text(c.fov) + "°" },
         { "projection", projection_text(o.projection) + "; near " + text(r.frustum.near) + ", far " + text(r.frustum.far) },
-        { "settings", std::string(kernel_text(o.settings.kernel)) + ", " + std::to_string(o.settings.taps) + " taps, radius " +
+        { "settings", std::string(method_text(o.settings.method)) + ", " + std::to_string(o.settings.taps) + " taps, radius " +
                           text(o.settings.radius) + ", bias " + text(o.settings.bias) + ", thickness " +
                           text(o.settings.thickness) + ", filter " + std::to_string(o.settings.filter) + ", seed " +
                           std::to_string(o.settings.seed) },

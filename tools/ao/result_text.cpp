@@ -22,9 +22,9 @@ std::string size_text(extent size)
     return std::to_string(size.width) + "x" + std::to_string(size.height);
 }
 
-const char* kernel_text(kernel_type k)
+const char* method_text(method m)
 {
-    return k == kernel_type::box ? "box" : k == kernel_type::hemisphere ? "hemisphere" : "halton";
+    return m == method::box ? "box" : m == method::hemisphere ? "hemisphere" : "halton";
 }
 
 const char* depth_text(const facts& f)

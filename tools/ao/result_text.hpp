@@ -12,7 +12,7 @@ namespace ao::tools {
 [[nodiscard]] std::string text(double value);
 [[nodiscard]] std::string text(float value);
 [[nodiscard]] std::string size_text(extent size);
-[[nodiscard]] const char* kernel_text(kernel_type k);
+[[nodiscard]] const char* method_text(method m);
 [[nodiscard]] const char* depth_text(const facts& f);
 [[nodiscard]] const char* normals_text(const facts& f);
 [[nodiscard]] const char* contribution_text(contribution_type c);

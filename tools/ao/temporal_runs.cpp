@@ -137,7 +137,7 @@ public:
     {
         const temporal_settings& s = o.temporal->settings;
         settings_ = o.settings;
-        settings_.kernel = kernel_type::halton; // the density of temporal samples
+        settings_.method = method::halton; // the density of temporal samples
         settings_.taps = std::min(s.later_samples, max_taps);
         settings_.filter = 1;
         facts_ = o.inputs;

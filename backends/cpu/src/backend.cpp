@@ -76,7 +76,7 @@ result<program> backend::prepare(const plan& p)
     if (!complete) {
         return error(errc::out_of_memory, "no memory for the pictures between the passes");
     }
-    const auto kernel = make_kernel(p.settings.kernel, p.settings.taps, p.settings.seed);
+    const auto kernel = make_kernel(p.settings.method, p.settings.taps, p.settings.seed);
     for (std::size_t i = 0; i < kernel.size(); ++i) {
         for (int j = 0; j < 4; ++j) {
             made.kernel_[4 * i + static_cast<std::size_t>(j)] = kernel[i][j];

@@ -14,7 +14,7 @@ namespace {
 
 void make_tables(const functions& gl, program_state& state, const settings& s)
 {
-    const auto taps = make_kernel(s.kernel, s.taps, s.seed);
+    const auto taps = make_kernel(s.method, s.taps, s.seed);
     state.taps = make_object(gl, object_type::buffer, gl.CreateBuffers);
     gl.NamedBufferStorage(state.taps.name(), sizeof taps, taps.data(), 0);
     state.images[index_of(image_id::rotation)] = make_rotations(gl, s.seed);

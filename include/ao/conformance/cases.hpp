@@ -191,7 +191,7 @@ inline pass_case make_case(const choice& c)
     constexpr std::array<int, 3> taps{ 8, 32, 13 };
     constexpr std::array<int, 4> filters{ 1, 3, 5, 31 };
     pass_case made;
-    made.settings.kernel = static_cast<kernel_type>(c[of_kernel]);
+    made.settings.method = static_cast<method>(c[of_kernel]);
     made.settings.taps = taps[c[of_taps]];
     made.settings.radius = 0.8F;
     made.settings.filter = filters[c[of_filter]];

@@ -187,7 +187,7 @@ public:
             rotation.texels[i].x = Real(tile[i].x);
             rotation.texels[i].y = Real(tile[i].y);
         }
-        const auto kernel = make_kernel(p.settings.kernel, p.settings.taps, p.settings.seed);
+        const auto kernel = make_kernel(p.settings.method, p.settings.taps, p.settings.seed);
         taps_.assign(kernel.begin(), kernel.end());
     }
 
