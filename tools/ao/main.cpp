@@ -1,5 +1,6 @@
 #include "ao/bake_options.hpp"
 #include "ao/bake_program.hpp"
+#include "ao/chart_program.hpp"
 #include "ao/options.hpp"
 #include "ao/render.hpp"
 #include "ao/temporal_render.hpp"
@@ -32,6 +33,9 @@ try {
     ao::tools::bake_arguments bake_arguments;
     CLI::App& bake = *app.add_subcommand("bake", "Bake a model's ambient occlusion per vertex");
     ao::tools::add_bake_options(bake, bake_arguments);
+    ao::tools::chart_arguments chart_arguments;
+    CLI::App& chart = *app.add_subcommand("chart", "Chart error against time: all methods, all backends");
+    ao::tools::add_chart_options(chart, chart_arguments);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
@@ -41,6 +45,11 @@ try {
         ao::tools::note_given(bake, bake_arguments);
         ao::tools::catch_interrupts();
         return ao::tools::bake(ao::tools::check_arguments(bake_arguments)) ? 0 : 1;
+    }
+    if (chart.parsed()) {
+        ao::tools::catch_interrupts();
+        ao::tools::chart(ao::tools::check_arguments(chart_arguments));
+        return 0;
     }
     arguments.has_yaw = render.count("--yaw") > 0;
     arguments.has_pitch = render.count("--pitch") > 0;
