@@ -1,5 +1,4 @@
-// What the GPU backends' bakers have in common: tables for their shaders, and the cutting of a bake into launches that are short
-// enough for a watchdog, a progress bar and a user who changes his mind.
+// What the GPU backends' bakers have in common: their routes, and tables for their shaders.
 #pragma once
 
 #include "ao/bake.hpp"
@@ -10,11 +9,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -24,7 +21,7 @@ namespace ao {
 struct bake_gpu_options {
     // What a launch should take at most. It is cut by what the launch before took, so that single ones may take twice as long.
     double launch_seconds = 0.1;
-    // Of what the packed route keeps on the device beside the mesh, bytes; at least what 16 lines take.
+    // Of what the routes packed and raster keep on the device beside the mesh, bytes; at least what 16 lines take.
     std::size_t scratch = std::size_t{ 64 } << 20U;
 };
 
@@ -43,26 +40,36 @@ struct bake_launch {
     glm::vec4 ground{ 0.0F };
     float reach = 0;
     std::uint32_t words = 0;
+    std::uint32_t first_row = 0;
+    std::uint32_t pitch = 0;
+    glm::vec4 box{ 0.0F };
+    std::uint32_t columns = 0;
+    std::uint32_t rows = 0;
     std::array<std::uint32_t, 2> reserved{};
 };
-static_assert(sizeof(bake_launch) == 64);
+static_assert(sizeof(bake_launch) == 96);
 
-enum class bake_shader { brute, tiled, hierarchy, project, packed, count_packed };
+enum class bake_shader { brute, tiled, hierarchy, project, packed, count_packed, raster_sort, raster_cover };
 
 inline std::span<const bake_shader> bake_shaders_of(bake_route route)
 {
-    static constexpr std::array all{ bake_shader::brute,   bake_shader::tiled,  bake_shader::hierarchy,
-                                     bake_shader::project, bake_shader::packed, bake_shader::count_packed };
-    const std::span<const bake_shader> list(all);
+    using enum bake_shader;
+    static constexpr std::array by_brute{ brute };
+    static constexpr std::array by_tiles{ tiled };
+    static constexpr std::array by_tree{ hierarchy };
+    static constexpr std::array by_bits{ project, packed, count_packed };
+    static constexpr std::array by_raster{ project, raster_sort, raster_cover, count_packed };
     switch (route) {
     case bake_route::brute:
-        return list.first(1);
+        return by_brute;
     case bake_route::tiled:
-        return list.subspan(1, 1);
+        return by_tiles;
     case bake_route::hierarchy:
-        return list.subspan(2, 1);
+        return by_tree;
+    case bake_route::raster:
+        return by_raster;
     default:
-        return list.subspan(3);
+        return by_bits;
     }
 }
 
@@ -129,7 +136,7 @@ inline bake_gpu_tables make_bake_gpu_tables(const bake_job& job, const bake_requ
 inline bool has_bake_gpu_route(bake_route route)
 {
     return route == bake_route::automatic || route == bake_route::brute || route == bake_route::tiled ||
-           route == bake_route::packed || route == bake_route::hierarchy;
+           route == bake_route::packed || route == bake_route::hierarchy || route == bake_route::raster;
 }
 
 // errc::unsupported_format where the one asked for cannot do the job.
@@ -150,52 +157,72 @@ inline result<std::pair<bake_route, const char*>> choose_bake_gpu_route(const ba
                                                    "fall-off, no rotation per vertex, no rule about the normal");
         }
         return chosen{ asked, "as asked for" };
+    case bake_route::raster:
+        if (job.turned()) {
+            return error(errc::unsupported_format, "the raster route takes one rule for all vertices: no rotation per vertex, no "
+                                                   "rule about the normal");
+        }
+        return chosen{ asked, "as asked for" };
     default:
-        return error(errc::unsupported_format, "this backend has the bake routes brute, tiled, packed and hierarchy");
+        return error(errc::unsupported_format, "this backend has the bake routes brute, tiled, packed, hierarchy and raster");
     }
 }
-
-// How much a launch may do, from what the last ones took.
-class bake_pace {
-public:
-    explicit bake_pace(double seconds) : seconds_(seconds) {}
-
-    // Tests of a ray against a triangle, at least 1.
-    double tests() const { return std::max(1.0, tests_); }
-    // A launch of so many took so long. Growth is held back: the next rays may not meet anything as soon.
-    void took(double tests, double seconds)
-    {
-        const double fitting = seconds > 0 ? tests * seconds_ / seconds : 4 * tests_;
-        tests_ = std::min({ fitting, 4 * std::max(tests, 1e6), 1e15 });
-    }
-
-private:
-    double seconds_;
-    double tests_ = 1e5; // fits anything
-};
 
 inline std::size_t rounded_up(std::size_t n, std::size_t to)
 {
     return (n + to - 1) / to * to;
 }
 
-// Of the packed route: two bits a line.
+// Two bits a line: what the routes packed and raster find.
 inline constexpr std::size_t bake_lines_in_word = 16;
 
-// So many lines along which the packed route keeps all points, a multiple of bake_lines_in_word.
-inline std::size_t packed_lines_at_once(const bake_job& job, const bake_request& part, std::size_t scratch)
+// What the routes packed and raster keep of some lines at once, for a block of vertices.
+struct bake_room {
+    std::size_t lines = 0;    // a multiple of bake_lines_in_word
+    std::size_t vertices = 0; // at most
+    std::size_t pitch = 0;    // texels of a line
+    std::uint32_t columns = 0;
+    std::uint32_t rows = 0;
+    std::size_t words = 0; // of all
+
+    std::size_t texels() const { return lines * pitch; }
+};
+
+// The cells of the raster's grid. Rows about as high as triangles are, columns finer: measured.
+inline void set_cells(bake_room& room)
 {
-    const std::size_t line = sizeof(glm::vec4) * std::max<std::size_t>(job.mesh.points.size(), 1);
-    const std::size_t fitting = std::max<std::size_t>(scratch / line / bake_lines_in_word, 1) * bake_lines_in_word;
-    return std::min(fitting, rounded_up(part.last_line - part.first_line, bake_lines_in_word));
+    const double side = std::sqrt(static_cast<double>(room.vertices));
+    room.rows = static_cast<std::uint32_t>(std::clamp(side * 0.3, 1.0, 4096.0));
+    room.columns = static_cast<std::uint32_t>(std::clamp(side * 2.0, 1.0, 8192.0));
 }
 
-// Of the block of vertices with the most.
-inline constexpr std::size_t most_block_vertices = 65536;
-
-inline std::size_t packed_words(std::size_t vertices, std::size_t lines_at_once)
+// Empty for routes that keep nothing.
+inline bake_room bake_room_of(const bake_job& job, const bake_request& part, bake_route route, std::size_t scratch)
 {
-    return std::min(vertices, most_block_vertices) * (lines_at_once / bake_lines_in_word);
+    constexpr std::size_t most_block_vertices = 65536;
+    constexpr std::size_t least_block_vertices = 256;
+    bake_room room;
+    if (route != bake_route::packed && route != bake_route::raster) {
+        return room;
+    }
+    const std::size_t points = std::max<std::size_t>(job.mesh.points.size(), 1);
+    const bool raster = route == bake_route::raster;
+    // A start, and its part of the words.
+    constexpr std::size_t sample = sizeof(glm::vec4) + 4;
+    room.vertices =
+        std::min(part.last_vertex - part.first_vertex,
+                 raster ? std::max(scratch / bake_lines_in_word / sample, least_block_vertices) : most_block_vertices);
+    room.pitch = points + (raster ? room.vertices : 0);
+    const std::size_t fitting = std::max<std::size_t>(scratch / (sizeof(glm::vec4) * room.pitch) / bake_lines_in_word, 1);
+    room.lines = std::min(fitting * bake_lines_in_word, rounded_up(part.last_line - part.first_line, bake_lines_in_word));
+    room.words = room.vertices * (room.lines / bake_lines_in_word);
+    if (raster) {
+        set_cells(room);
+        const std::size_t cells = static_cast<std::size_t>(room.rows) * room.columns + 1;
+        const std::size_t distances = 2 * room.vertices * room.lines;
+        room.words = (job.settings.falloff == bake_falloff::none ? room.words : distances) + room.lines * cells;
+    }
+    return room;
 }
 
 // Of this part, all 0.
@@ -211,190 +238,6 @@ inline bool nothing_to_bake(const bake_job& job, const bake_request& part)
 {
     return part.first_vertex == part.last_vertex || part.first_line == part.last_line || job.mesh.triangles.empty();
 }
-
-// Cuts a part of a bake into launches, block of vertices after block of vertices. Execute: std::optional<error>(bake_shader,
-// const bake_launch&, groups in x, groups in y), which returns when it is done.
-template <class Execute>
-class bake_gpu_driver {
-public:
-    bake_gpu_driver(const bake_job& job, const bake_request& part, bake_route route, const bake_gpu_options& options,
-                    std::uint32_t group, Execute& execute)
-        : part_(part),
-          route_(route),
-          group_(group),
-          execute_(execute),
-          pace_(options.launch_seconds),
-          triangles_(job.mesh.triangles.size()),
-          tests_of_ray_(route == bake_route::hierarchy ? tests_in_tree : static_cast<double>(triangles_))
-    {
-        launch_.base_vertex = static_cast<std::uint32_t>(part.first_vertex);
-        launch_.last_triangle = static_cast<std::uint32_t>(triangles_);
-        launch_.points = static_cast<std::uint32_t>(job.mesh.points.size());
-        launch_.ground = job.ground;
-        launch_.reach = job.reach;
-    }
-
-    // The end of the vertices that are done; the part's, unless progress said no.
-    result<std::size_t> run(std::size_t lines_at_once)
-    {
-        std::size_t first = part_.first_vertex;
-        while (first < part_.last_vertex && !ended_) {
-            const std::size_t last = std::min(first + block_size(), part_.last_vertex);
-            set_vertices(first, last);
-            const auto failed = route_ == bake_route::packed ? run_packed(lines_at_once) : run_lines();
-            if (failed) {
-                return *failed;
-            }
-            if (whole_) {
-                first = last;
-            }
-        }
-        return first;
-    }
-
-private:
-    static constexpr std::size_t least_vertices = 256;
-    static constexpr std::size_t most_rows = 32768; // of groups; every driver takes 65535
-    static constexpr double tests_in_tree = 64;     // of a ray, or about
-
-    // So many that a launch does a few lines of all.
-    std::size_t block_size() const
-    {
-        const std::size_t most = route_ == bake_route::hierarchy ? most_rows : most_block_vertices;
-        const double fitting = pace_.tests() / (8 * tests_of_ray_);
-        return static_cast<std::size_t>(std::clamp(fitting, static_cast<double>(least_vertices), static_cast<double>(most)));
-    }
-
-    void set_vertices(std::size_t first, std::size_t last)
-    {
-        launch_.first_vertex = static_cast<std::uint32_t>(first);
-        launch_.last_vertex = static_cast<std::uint32_t>(last);
-    }
-    std::size_t vertices() const { return launch_.last_vertex - launch_.first_vertex; }
-    void set_lines(std::size_t first, std::size_t last)
-    {
-        launch_.first_line = static_cast<std::uint32_t>(first);
-        launch_.last_line = static_cast<std::uint32_t>(last);
-    }
-    std::uint32_t groups(std::size_t invocations) const
-    {
-        return static_cast<std::uint32_t>((invocations + group_ - 1) / group_);
-    }
-
-    // As many lines as the pace allows, a multiple of `step`.
-    std::size_t lines_of_pace(std::size_t step) const
-    {
-        const double lines = pace_.tests() / (static_cast<double>(vertices()) * tests_of_ray_);
-        const double steps = std::clamp(lines / static_cast<double>(step), 1.0, static_cast<double>(most_rows));
-        return static_cast<std::size_t>(steps) * step;
-    }
-
-    std::optional<error> timed(bake_shader shader, std::uint32_t x, std::uint32_t y, double tests)
-    {
-        const auto start = std::chrono::steady_clock::now();
-        auto failed = execute_(shader, launch_, x, y);
-        pace_.took(tests, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-        return failed;
-    }
-
-    double rays(std::size_t lines) const { return static_cast<double>(vertices()) * static_cast<double>(lines); }
-
-    // The lines of the block up to `line` are done.
-    void report(double line)
-    {
-        if (!part_.progress) {
-            return;
-        }
-        const auto lines = static_cast<double>(part_.last_line - part_.first_line);
-        const double block = static_cast<double>(vertices()) * (line - static_cast<double>(part_.first_line)) / lines;
-        const double done = static_cast<double>(launch_.first_vertex - part_.first_vertex) + block;
-        ended_ = !part_.progress(done / static_cast<double>(part_.last_vertex - part_.first_vertex));
-    }
-
-    std::optional<error> run_lines()
-    {
-        const bake_shader shader = bake_shaders_of(route_).front();
-        std::size_t line = part_.first_line;
-        while (line < part_.last_line && !ended_) {
-            const std::size_t next = std::min(line + lines_of_pace(2), part_.last_line);
-            set_lines(line, next);
-            const std::size_t pairs = (next - line + 1) / 2;
-            const bool by_vertex = shader == bake_shader::hierarchy;
-            if (const auto failed =
-                    timed(shader, groups(by_vertex ? pairs : vertices()),
-                          static_cast<std::uint32_t>(by_vertex ? vertices() : pairs), rays(next - line) * tests_of_ray_)) {
-                return failed;
-            }
-            line = next;
-            report(static_cast<double>(line));
-        }
-        whole_ = line == part_.last_line;
-        return std::nullopt;
-    }
-
-    // Lines by blocks: all points along them, then triangles, then the sums.
-    std::optional<error> run_packed(std::size_t lines_at_once)
-    {
-        constexpr std::size_t bits = bake_lines_in_word;
-        const std::size_t most = std::min(lines_at_once, most_rows);
-        std::size_t line = part_.first_line;
-        whole_ = false;
-        while (line < part_.last_line && !ended_) {
-            const std::size_t next = std::min({ line + lines_of_pace(bits), line + most, part_.last_line });
-            set_lines(line, next);
-            launch_.words = static_cast<std::uint32_t>((next - line + bits - 1) / bits);
-            if (auto failed =
-                    execute_(bake_shader::project, launch_, groups(launch_.points), static_cast<std::uint32_t>(next - line))) {
-                return failed;
-            }
-            if (auto failed = run_triangles(next - line)) {
-                return failed;
-            }
-            if (ended_) {
-                return std::nullopt;
-            }
-            if (auto failed = execute_(bake_shader::count_packed, launch_, groups(vertices()), 1)) {
-                return failed;
-            }
-            line = next;
-            report(static_cast<double>(line));
-        }
-        whole_ = line == part_.last_line;
-        return std::nullopt;
-    }
-
-    std::optional<error> run_triangles(std::size_t lines)
-    {
-        for (std::size_t t = 0; t < triangles_ && !ended_;) {
-            const double fitting = pace_.tests() / rays(lines);
-            const auto count = static_cast<std::size_t>(std::clamp(fitting, 1024.0, static_cast<double>(triangles_ - t) + 1024));
-            const std::size_t end = std::min(t + count, triangles_);
-            launch_.first_triangle = static_cast<std::uint32_t>(t);
-            launch_.last_triangle = static_cast<std::uint32_t>(end);
-            if (auto failed =
-                    timed(bake_shader::packed, groups(vertices()), launch_.words, rays(lines) * static_cast<double>(end - t))) {
-                return failed;
-            }
-            t = end;
-            if (t < triangles_) {
-                report(static_cast<double>(launch_.first_line) +
-                       static_cast<double>(lines) * static_cast<double>(t) / static_cast<double>(triangles_));
-            }
-        }
-        return std::nullopt;
-    }
-
-    const bake_request& part_;
-    bake_route route_;
-    std::uint32_t group_;
-    Execute& execute_;
-    bake_pace pace_;
-    std::size_t triangles_;
-    double tests_of_ray_;
-    bake_launch launch_;
-    bool ended_ = false; // by progress
-    bool whole_ = false; // the block of vertices is done
-};
 
 } // namespace detail
 

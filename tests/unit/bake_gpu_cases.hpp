@@ -18,14 +18,15 @@
 
 namespace bake_test {
 
-constexpr std::array gpu_routes{ ao::bake_route::brute, ao::bake_route::tiled, ao::bake_route::packed,
-                                 ao::bake_route::hierarchy };
+constexpr std::array gpu_routes{ ao::bake_route::brute, ao::bake_route::tiled, ao::bake_route::packed, ao::bake_route::hierarchy,
+                                 ao::bake_route::raster };
 
 inline const char* name_of(ao::bake_route route)
 {
     return route == ao::bake_route::brute    ? "brute"
            : route == ao::bake_route::tiled  ? "tiled"
            : route == ao::bake_route::packed ? "packed"
+           : route == ao::bake_route::raster ? "raster"
                                              : "hierarchy";
 }
 
@@ -114,9 +115,11 @@ inline std::vector<setting_case> setting_cases()
     };
 }
 
-inline bool packable(const ao::bake_job& job)
+inline bool able(ao::bake_route route, const ao::bake_job& job)
 {
-    return job.settings.falloff == ao::bake_falloff::none && !job.turned();
+    return route == ao::bake_route::packed   ? job.settings.falloff == ao::bake_falloff::none && !job.turned()
+           : route == ao::bake_route::raster ? !job.turned()
+                                             : true;
 }
 
 template <class Run>
@@ -129,7 +132,7 @@ void require_reference(const Run& run, const ao::bake_job& job, const ao::bake_r
         ao::bake_request request = part;
         request.route = route;
         const auto sums = run(job, request);
-        if (route == ao::bake_route::packed && !packable(job)) {
+        if (!able(route, job)) {
             REQUIRE_FALSE(sums);
             CHECK(sums.error().code() == ao::errc::unsupported_format);
             continue;
@@ -226,10 +229,20 @@ void check_progress(const Run& run)
         REQUIRE(some);
         CHECK_FALSE(some->holds(job));
         CHECK(some->first_vertex == 0);
-        CHECK(some->last_vertex > 0);
-        CHECK(some->last_vertex < job.vertices());
+        CHECK(some->first_line == 0);
         CHECK(some->sums.size() == some->last_vertex);
-        const auto rest = run(job, ao::bake_request{ .first_vertex = some->last_vertex, .route = route });
+        ao::bake_request left{ .route = route };
+        if (route == ao::bake_route::raster) { // by lines
+            CHECK(some->last_vertex == job.vertices());
+            left.first_line = some->last_line;
+        }
+        else {
+            CHECK(some->last_line == job.lines.size());
+            left.first_vertex = some->last_vertex;
+        }
+        CHECK(some->last_vertex * some->last_line > 0);
+        CHECK(some->last_vertex * some->last_line < job.vertices() * job.lines.size());
+        const auto rest = run(job, left);
         REQUIRE(rest);
         REQUIRE(ao::merge_bake_sums(*some, *rest));
         CHECK(differing_sums(*some, *expected) == 0);
@@ -237,8 +250,7 @@ void check_progress(const Run& run)
         request.progress = [](double) { return false; };
         const auto none = run(job, request);
         REQUIRE(none);
-        CHECK(none->last_vertex == 0);
-        CHECK(none->sums.empty());
+        CHECK((route == ao::bake_route::raster ? none->last_line : none->last_vertex) == 0);
     }
 }
 
@@ -247,8 +259,8 @@ void check_refusals(const Run& run)
 {
     const auto job = job_of(sphere_on_floor(), *ao::lebedev_rule(6), {});
     using Catch::Matchers::Contains;
-    for (const ao::bake_route route : { ao::bake_route::raster, ao::bake_route::embree }) {
-        const auto sums = run(job, ao::bake_request{ .route = route });
+    {
+        const auto sums = run(job, ao::bake_request{ .route = ao::bake_route::embree });
         REQUIRE_FALSE(sums);
         CHECK(sums.error().code() == ao::errc::unsupported_format);
         CHECK_THAT(std::string(sums.error().reason()), Contains("brute") && Contains("packed"));

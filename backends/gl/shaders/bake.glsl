@@ -1,4 +1,8 @@
 // Resources of the bake's passes. AO_HIERARCHY: there is a tree of boxes instead of points as seen.
+// AO_COHERENT: what invocations of a group write, the others read.
+#ifndef AO_COHERENT
+#define AO_COHERENT
+#endif
 #include "ao/shared/prelude.glsl"
 #include "ao/shared/vector.h"
 #include "ao/shared/bake_ray.h"
@@ -27,7 +31,7 @@ vec4 ao_load_seen(uint i)
 #endif
 
 layout(std430, binding = 0) buffer ao_sums_block { int ao_sums[]; };
-layout(std430, binding = 1) buffer ao_words_block { uint ao_words[]; };
+layout(std430, binding = 1) AO_COHERENT buffer ao_words_block { uint ao_words[]; };
 layout(std430, binding = 2) writeonly buffer ao_seen_block { vec4 ao_seen_stored[]; };
 
 uvec4 ao_load_vertex(uint i)
@@ -73,6 +77,21 @@ uint ao_load_word(uint i)
 void ao_store_word(uint i, uint word)
 {
     ao_words[i] = word;
+}
+
+uint ao_add_word(uint i, uint n)
+{
+    return atomicAdd(ao_words[i], n);
+}
+
+void ao_or_word(uint i, uint bits)
+{
+    atomicOr(ao_words[i], bits);
+}
+
+void ao_least_word(uint i, uint word)
+{
+    atomicMin(ao_words[i], word);
 }
 
 #include "ao/shared/bake_gpu.glsl"

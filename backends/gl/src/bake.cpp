@@ -40,6 +40,10 @@ source source_of(detail::bake_shader shader)
         return { bake_project_comp, bake_project_comp_text, constant_ids, "bake, projection" };
     case detail::bake_shader::packed:
         return { bake_packed_comp, bake_packed_comp_text, constant_ids, "bake, packed" };
+    case detail::bake_shader::raster_sort:
+        return { bake_raster_sort_comp, bake_raster_sort_comp_text, constant_ids, "bake, sorting" };
+    case detail::bake_shader::raster_cover:
+        return { bake_raster_cover_comp, bake_raster_cover_comp_text, constant_ids, "bake, raster" };
     case detail::bake_shader::count_packed:
         break;
     }
@@ -128,8 +132,8 @@ result<bake_sums> baker::run(const bake_job& job, const bake_request& request)
             return program.error();
         }
     }
-    const std::size_t at_once = route == bake_route::packed ? detail::packed_lines_at_once(job, *part, state.cut.scratch) : 0;
-    const auto buffers = make_bake_buffers(gl, job, *part, route, at_once);
+    const detail::bake_room room = detail::bake_room_of(job, *part, route, state.cut.scratch);
+    const auto buffers = make_bake_buffers(gl, job, *part, route, room);
     if (!buffers) {
         return buffers.error();
     }
@@ -141,13 +145,14 @@ result<bake_sums> baker::run(const bake_job& job, const bake_request& request)
         }
         return launch_bake(state, *buffers, *program, launch, x, y);
     };
-    detail::bake_gpu_driver driver(job, *part, route, state.cut, group, execute);
-    const auto end = driver.run(at_once);
+    detail::bake_gpu_driver driver(job, *part, route, state.cut, room, group, execute);
+    const auto end = driver.run();
     if (!end) {
         return end.error();
     }
-    sums.last_vertex = *end;
-    sums.sums.resize(*end - part->first_vertex);
+    sums.last_vertex = end->last_vertex;
+    sums.last_line = end->last_line;
+    sums.sums.resize(sums.last_vertex - sums.first_vertex);
     if (!sums.sums.empty()) {
         gl.GetNamedBufferSubData(buffers->sums.name(), 0, static_cast<GLsizeiptr>(sums.sums.size() * sizeof(bake_sum)),
                                  sums.sums.data());

@@ -28,7 +28,7 @@ std::optional<error> make_texels(const functions& gl, const char* what, const ob
 } // namespace
 
 result<bake_buffers> make_bake_buffers(const functions& gl, const bake_job& job, const bake_request& part, bake_route route,
-                                       std::size_t lines_at_once)
+                                       const detail::bake_room& room)
 {
     const detail::bake_gpu_tables t = detail::make_bake_gpu_tables(job, part);
     struct table {
@@ -58,16 +58,14 @@ result<bake_buffers> make_bake_buffers(const functions& gl, const bake_job& job,
     const std::size_t vertices = part.last_vertex - part.first_vertex;
     const std::vector<bake_sum> none(vertices);
     made.sums = buffers.storage("the sums of the bake", std::as_bytes(std::span(none)), 0);
-    if (lines_at_once > 0) {
+    if (room.lines > 0) {
         const char* what = "the points along lines of the bake";
-        const std::size_t kept = lines_at_once * t.points.size();
-        made.tables[seen_unit] = buffers.storage_of_size(what, kept * sizeof(glm::vec4), 0);
-        made.words = buffers.storage_of_size("the bits of the bake",
-                                             detail::packed_words(vertices, lines_at_once) * sizeof(std::uint32_t), 0);
+        made.tables[seen_unit] = buffers.storage_of_size(what, room.texels() * sizeof(glm::vec4), 0);
+        made.words = buffers.storage_of_size("what the bake finds along lines", room.words * sizeof(std::uint32_t), 0);
         if (buffers.failed()) {
             return *buffers.failed();
         }
-        if (auto wrong = make_texels(gl, what, made.tables[seen_unit], GL_RGBA32F, kept, made.textures[seen_unit])) {
+        if (auto wrong = make_texels(gl, what, made.tables[seen_unit], GL_RGBA32F, room.texels(), made.textures[seen_unit])) {
             return *wrong;
         }
     }

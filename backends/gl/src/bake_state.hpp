@@ -1,7 +1,7 @@
 // What a baker keeps between bakes, and what it makes for one.
 #pragma once
 
-#include "ao/bake_gpu.hpp"
+#include "ao/bake_gpu_driver.hpp"
 #include "ao/gl/bake.hpp"
 #include "object.hpp"
 
@@ -54,9 +54,9 @@ struct bake_buffers {
     object launch;
 };
 
-// Makes the buffers of a part. lines_at_once: of the packed route, else 0.
+// Makes the buffers of a part.
 result<bake_buffers> make_bake_buffers(const functions& gl, const bake_job& job, const bake_request& part, bake_route route,
-                                       std::size_t lines_at_once);
+                                       const detail::bake_room& room);
 
 // Returns when it is done.
 std::optional<error> launch_bake(const bake_state& state, const bake_buffers& buffers, GLuint program,

@@ -58,6 +58,10 @@ std::span<const std::uint32_t> code_of(detail::bake_shader shader)
         return shaders::bake_project_comp;
     case detail::bake_shader::packed:
         return shaders::bake_packed_comp;
+    case detail::bake_shader::raster_sort:
+        return shaders::bake_raster_sort_comp;
+    case detail::bake_shader::raster_cover:
+        return shaders::bake_raster_cover_comp;
     case detail::bake_shader::count_packed:
         break;
     }
@@ -128,7 +132,7 @@ result<bake_sums> baker::run(const bake_job& job, const bake_request& request)
     if (detail::nothing_to_bake(job, *part)) {
         return sums;
     }
-    const std::size_t at_once = route == bake_route::packed ? detail::packed_lines_at_once(job, *part, state.options.scratch) : 0;
+    const detail::bake_room room = detail::bake_room_of(job, *part, route, state.options.scratch);
     const std::uint32_t group = detail::bake_group_of(route, state.group);
     const auto constants = detail::bake_gpu_constants_of(job, group);
     for (const detail::bake_shader shader : detail::bake_shaders_of(route)) {
@@ -137,7 +141,7 @@ result<bake_sums> baker::run(const bake_job& job, const bake_request& request)
         }
     }
     bake_buffers buffers;
-    if (const auto wrong = make_bake_buffers(state, job, *part, route, at_once, buffers)) {
+    if (const auto wrong = make_bake_buffers(state, job, *part, route, room, buffers)) {
         return *wrong;
     }
     const device& d = *state.on;
@@ -155,13 +159,14 @@ result<bake_sums> baker::run(const bake_job& job, const bake_request& request)
             d.call.CmdDispatch(commands, x, y, 1);
         });
     };
-    detail::bake_gpu_driver driver(job, *part, route, state.options, group, execute);
-    const auto end = driver.run(at_once);
+    detail::bake_gpu_driver driver(job, *part, route, state.options, room, group, execute);
+    const auto end = driver.run();
     if (!end) {
         return end.error();
     }
-    sums.last_vertex = *end;
-    sums.sums.resize(*end - part->first_vertex);
+    sums.last_vertex = end->last_vertex;
+    sums.last_line = end->last_line;
+    sums.sums.resize(sums.last_vertex - sums.first_vertex);
     if (const auto wrong = read_bake_sums(state, buffers, sums.sums)) {
         return *wrong;
     }

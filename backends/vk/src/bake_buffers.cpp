@@ -140,7 +140,7 @@ std::optional<error> make_set(const bake_state& state, bake_buffers& made)
 } // namespace
 
 std::optional<error> make_bake_buffers(bake_state& state, const bake_job& job, const bake_request& part, bake_route route,
-                                       std::size_t lines_at_once, bake_buffers& made)
+                                       const detail::bake_room& room, bake_buffers& made)
 {
     const device& d = *state.on;
     const detail::bake_gpu_tables t = detail::make_bake_gpu_tables(job, part);
@@ -165,8 +165,8 @@ std::optional<error> make_bake_buffers(bake_state& state, const bake_job& job, c
     if (auto wrong = make_storage(d, "the sums of the bake", sums_slot, vertices * sizeof(bake_sum), made)) {
         return wrong;
     }
-    if (lines_at_once > 0) {
-        const std::size_t kept = lines_at_once * t.points.size() * sizeof(glm::vec4);
+    if (room.lines > 0) {
+        const std::size_t kept = room.texels() * sizeof(glm::vec4);
         if (auto wrong =
                 too_large("the points along lines of the bake", kept, "bytes", d.properties.limits.maxStorageBufferRange)) {
             return wrong;
@@ -175,8 +175,8 @@ std::optional<error> make_bake_buffers(bake_state& state, const bake_job& job, c
                                      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, made)) {
             return wrong;
         }
-        const std::size_t bits = detail::packed_words(vertices, lines_at_once) * sizeof(std::uint32_t);
-        if (auto wrong = make_storage(d, "the bits of the bake", words_slot, bits, made)) {
+        if (auto wrong =
+                make_storage(d, "what the bake finds along lines", words_slot, room.words * sizeof(std::uint32_t), made)) {
             return wrong;
         }
     }

@@ -1,7 +1,7 @@
 // What a baker keeps between bakes, and what it makes for one.
 #pragma once
 
-#include "ao/bake_gpu.hpp"
+#include "ao/bake_gpu_driver.hpp"
 #include "ao/vk/bake.hpp"
 #include "memory.hpp"
 
@@ -94,9 +94,9 @@ struct bake_buffers {
     VkDescriptorSet set = VK_NULL_HANDLE;
 };
 
-// Makes the buffers of a part, uploads the tables and clears the sums. lines_at_once: of the packed route, else 0.
+// Makes the buffers of a part, uploads the tables and clears the sums.
 std::optional<error> make_bake_buffers(bake_state& state, const bake_job& job, const bake_request& part, bake_route route,
-                                       std::size_t lines_at_once, bake_buffers& made);
+                                       const detail::bake_room& room, bake_buffers& made);
 std::optional<error> read_bake_sums(bake_state& state, const bake_buffers& from, std::span<bake_sum> sums);
 
 } // namespace ao::vk

@@ -1,4 +1,5 @@
-// Of the route `packed`: the sums of the launch's vertices from their bits.
+// Of the routes `packed` and `raster`: the sums of the launch's vertices from what was found. Rows of groups are words, of 16
+// lines each. With fall-off the words are distances, two a line, d then -d.
 //     uint ao_load_word(uint i)
 
 void ao_bake_main(ao_bake_launch launch)
@@ -12,18 +13,23 @@ void ao_bake_main(ao_bake_launch launch)
         return;
     }
     ao_bake_tally tally = ao_empty_tally();
-    uint word = 0u;
-    for (uint i = launch.first_line; i < launch.last_line; ++i) {
-        uint row = i - launch.first_line;
-        if (row % 16u == 0u) {
-            word = ao_load_word(gl_GlobalInvocationID.x * launch.words + row / 16u);
-        }
+    uint lines = launch.last_line - launch.first_line;
+    uint first = 16u * gl_WorkGroupID.y;
+    uint word = ao_falloff == 0 ? ao_load_word(gl_GlobalInvocationID.x * launch.words + gl_WorkGroupID.y) : 0u;
+    for (uint row = first; row < min(first + 16u, lines); ++row) {
+        uint i = launch.first_line + row;
         ao_bake_line line = ao_stored_line(i);
         real cosine = ao_bake_cosine(line, receiver.normal);
         ao_bake_rays rays = ao_rays(line, cosine, true);
-        bvec2 blocked = bvec2((word & 1u) != 0u, (word & 2u) != 0u);
-        rays.distance = mix(rays.distance, vec2(0.0), blocked);
-        word >>= 2u;
+        if (ao_falloff == 0) {
+            bvec2 blocked = bvec2((word & 1u) != 0u, (word & 2u) != 0u);
+            rays.distance = mix(rays.distance, vec2(0.0), blocked);
+            word >>= 2u;
+        }
+        else {
+            uint at = 2u * (gl_GlobalInvocationID.x * lines + row);
+            rays.distance = vec2(uintBitsToFloat(ao_load_word(at)), uintBitsToFloat(ao_load_word(at + 1u)));
+        }
         ao_meet_ground(rays, launch.ground, line, receiver.start, launch.reach);
         ao_count_line(tally, i, line, cosine, rays.distance, launch.reach);
     }

@@ -27,7 +27,12 @@ struct ao_bake_launch {
     uint points;
     vec4 ground;
     real reach;
-    uint words; // of a vertex, packed
+    uint words;     // of a vertex: bits of 16 lines each
+    uint first_row; // among the lines whose points are kept
+    uint pitch;     // texels of such a line
+    vec4 box;       // half the mesh's, xyz
+    uint columns;   // of the raster's grid
+    uint rows;
     uint reserved;
     uint more_reserved;
 };

@@ -29,7 +29,7 @@ void ao_bake_main(ao_bake_launch launch)
         bvec2 blocked = bvec2((word >> (2u * j) & 1u) != 0u, (word >> (2u * j) & 2u) != 0u);
         rays.wanted = bvec2(rays.wanted.x && !blocked.x, rays.wanted.y && !blocked.y);
         ao_bake_point start = ao_bake_seen(line, receiver.start);
-        uint base = row * launch.points;
+        uint base = row * launch.pitch;
         uint t = launch.first_triangle;
         while (t < launch.last_triangle && any(rays.wanted)) {
             uvec4 triangle = ao_load_triangle(t);
