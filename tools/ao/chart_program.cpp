@@ -19,6 +19,10 @@ void chart(const chart_options& o)
     r.options = o;
     if (o.rounds > 0)
         chart_single_frames(r);
+    if (o.frames > 0)
+        chart_motion(r);
+    if (o.vertices)
+        chart_vertices(r);
     if (!o.json.empty())
         write_file(o.json, json_of(r));
     std::fputs(table_of(r).c_str(), stdout);
