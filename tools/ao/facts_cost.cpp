@@ -234,8 +234,9 @@ std::span<const std::uint32_t> shader_of(pass_type type)
         return filter_rows_comp;
     case pass_type::filter_columns:
         return filter_columns_comp;
+    default:
+        return {};
     }
-    return {};
 }
 
 std::span<const std::uint32_t> shader_of(temporal_pass_type type)

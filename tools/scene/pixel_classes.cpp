@@ -48,6 +48,23 @@ private:
     const class_settings& s_;
 };
 
+std::vector<std::uint8_t> find_jumps(const picture_view& v, int width, int height)
+{
+    std::vector<std::uint8_t> jumps(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
+    const auto mark = [&](std::size_t a, std::size_t b) {
+        if (v.jump(a, b))
+            jumps[a] = jumps[b] = 1;
+    };
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            if (x > 0)
+                mark(v.at(x - 1, y), v.at(x, y));
+            if (y > 0)
+                mark(v.at(x, y - 1), v.at(x, y));
+        }
+    return jumps;
+}
+
 // Runs along one row or column: `place(i)` is its pixel i of `length`.
 template <class Place>
 void find_thin(const picture_view& v, std::vector<std::uint8_t>& thin, int length, Place&& place)
@@ -123,22 +140,12 @@ float focal_of(const frustum& f, int width)
 std::vector<pixel_class> classify(const gbuffer& g, const class_settings& s)
 {
     const picture_view v(g, s);
-    std::vector<std::uint8_t> jumps(g.size(), 0);
+    const std::vector<std::uint8_t> jumps = find_jumps(v, g.width, g.height);
     std::vector<std::uint8_t> thin(g.size(), 0);
-    const auto mark = [&](std::size_t a, std::size_t b) {
-        if (v.jump(a, b))
-            jumps[a] = jumps[b] = 1;
-    };
-    for (int y = 0; y < g.height; ++y) {
-        for (int x = 1; x < g.width; ++x)
-            mark(v.at(x - 1, y), v.at(x, y));
+    for (int y = 0; y < g.height; ++y)
         find_thin(v, thin, g.width, [&](int i) { return v.at(i, y); });
-    }
-    for (int x = 0; x < g.width; ++x) {
-        for (int y = 1; y < g.height; ++y)
-            mark(v.at(x, y - 1), v.at(x, y));
+    for (int x = 0; x < g.width; ++x)
         find_thin(v, thin, g.height, [&](int i) { return v.at(x, i); });
-    }
     const std::vector<std::uint8_t> near_silhouette = widened(jumps, g.width, g.height);
     const std::vector<std::uint8_t> near_thin = widened(thin, g.width, g.height);
 
@@ -155,6 +162,12 @@ std::vector<pixel_class> classify(const gbuffer& g, const class_settings& s)
                                                                  : pixel_class::interior;
         }
     return classes;
+}
+
+std::size_t count_jumps(const gbuffer& g, const class_settings& s)
+{
+    const std::vector<std::uint8_t> jumps = find_jumps(picture_view(g, s), g.width, g.height);
+    return static_cast<std::size_t>(std::count(jumps.begin(), jumps.end(), std::uint8_t{ 1 }));
 }
 
 void mark_disoccluded(std::vector<pixel_class>& classes, const gbuffer& before, const std::vector<pixel_motion>& motion)

@@ -34,6 +34,9 @@ struct class_settings {
 };
 [[nodiscard]] std::vector<pixel_class> classify(const gbuffer& g, const class_settings& s);
 
+// Pixels beside a depth jump, of whatever class.
+[[nodiscard]] std::size_t count_jumps(const gbuffer& g, const class_settings& s);
+
 // Of the pixels along rows, pixels per unit at distance 1, or per unit in an orthographic frustum.
 [[nodiscard]] float focal_of(const frustum& f, int width);
 
