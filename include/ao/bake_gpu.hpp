@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ao/bake.hpp"
+#include "ao/bake_route.hpp"
 #include "ao/result.hpp"
 
 #include <glm/vec4.hpp>
@@ -13,7 +14,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <utility>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace ao {
@@ -21,8 +23,11 @@ namespace ao {
 struct bake_gpu_options {
     // What a launch should take at most. It is cut by what the launch before took, so that single ones may take twice as long.
     double launch_seconds = 0.1;
-    // Of what the routes packed and raster keep on the device beside the mesh, bytes; at least what 16 lines take.
+    // Of what the routes packed, raster and cube keep on the device beside the mesh, bytes; at least what 16 lines or 16 cube
+    // maps take.
     std::size_t scratch = std::size_t{ 64 } << 20U;
+    // Texels across each of the six faces of the route cube, 1 to 1024.
+    std::uint32_t cube_texels = 64;
 };
 
 namespace detail {
@@ -49,7 +54,19 @@ struct bake_launch {
 };
 static_assert(sizeof(bake_launch) == 96);
 
-enum class bake_shader { brute, tiled, hierarchy, project, packed, count_packed, raster_sort, raster_cover };
+enum class bake_shader {
+    brute,
+    tiled,
+    hierarchy,
+    project,
+    packed,
+    count_packed,
+    raster_sort,
+    raster_cover,
+    cube_clear,
+    cube_depth,
+    cube_count
+};
 
 inline std::span<const bake_shader> bake_shaders_of(bake_route route)
 {
@@ -59,6 +76,7 @@ inline std::span<const bake_shader> bake_shaders_of(bake_route route)
     static constexpr std::array by_tree{ hierarchy };
     static constexpr std::array by_bits{ project, packed, count_packed };
     static constexpr std::array by_raster{ project, raster_sort, raster_cover, count_packed };
+    static constexpr std::array by_cube{ cube_clear, cube_depth, cube_count };
     switch (route) {
     case bake_route::brute:
         return by_brute;
@@ -68,6 +86,8 @@ inline std::span<const bake_shader> bake_shaders_of(bake_route route)
         return by_tree;
     case bake_route::raster:
         return by_raster;
+    case bake_route::cube:
+        return by_cube;
     default:
         return by_bits;
     }
@@ -136,35 +156,38 @@ inline bake_gpu_tables make_bake_gpu_tables(const bake_job& job, const bake_requ
 inline bool has_bake_gpu_route(bake_route route)
 {
     return route == bake_route::automatic || route == bake_route::brute || route == bake_route::tiled ||
-           route == bake_route::packed || route == bake_route::hierarchy || route == bake_route::raster;
+           route == bake_route::packed || route == bake_route::hierarchy || route == bake_route::raster ||
+           route == bake_route::cube;
 }
 
 // errc::unsupported_format where the one asked for cannot do the job.
-inline result<std::pair<bake_route, const char*>> choose_bake_gpu_route(const bake_job& job, bake_route asked)
+inline result<bake_choice> choose_bake_gpu_route(const bake_job& job, const bake_request& part)
 {
-    using chosen = std::pair<bake_route, const char*>;
+    const bake_choice chosen{ part.route, reason("as asked for") };
     const bool packable = job.settings.falloff == bake_falloff::none && !job.turned();
-    switch (asked) {
+    switch (part.route) {
     case bake_route::automatic:
-        return chosen{ bake_route::hierarchy, "work grows with the logarithm of the triangles" };
+        return choose_bake_route(job, part.last_vertex - part.first_vertex, gpu_bake_costs);
     case bake_route::brute:
     case bake_route::tiled:
     case bake_route::hierarchy:
-        return chosen{ asked, "as asked for" };
+    case bake_route::cube:
+        return chosen;
     case bake_route::packed:
         if (!packable) {
             return error(errc::unsupported_format, "the packed route keeps a bit per direction, of one rule for all vertices: no "
                                                    "fall-off, no rotation per vertex, no rule about the normal");
         }
-        return chosen{ asked, "as asked for" };
+        return chosen;
     case bake_route::raster:
         if (job.turned()) {
             return error(errc::unsupported_format, "the raster route takes one rule for all vertices: no rotation per vertex, no "
                                                    "rule about the normal");
         }
-        return chosen{ asked, "as asked for" };
+        return chosen;
     default:
-        return error(errc::unsupported_format, "this backend has the bake routes brute, tiled, packed, hierarchy and raster");
+        return error(errc::unsupported_format,
+                     "this backend has the bake routes brute, tiled, packed, hierarchy, raster and cube");
     }
 }
 
@@ -176,12 +199,12 @@ inline std::size_t rounded_up(std::size_t n, std::size_t to)
 // Two bits a line: what the routes packed and raster find.
 inline constexpr std::size_t bake_lines_in_word = 16;
 
-// What the routes packed and raster keep of some lines at once, for a block of vertices.
+// What the routes packed and raster keep of some lines at once, and cube of all, for a block of vertices.
 struct bake_room {
-    std::size_t lines = 0;    // a multiple of bake_lines_in_word
-    std::size_t vertices = 0; // at most
-    std::size_t pitch = 0;    // texels of a line
-    std::uint32_t columns = 0;
+    std::size_t lines = 0;     // a multiple of bake_lines_in_word
+    std::size_t vertices = 0;  // at most
+    std::size_t pitch = 0;     // texels of a line
+    std::uint32_t columns = 0; // of the raster's grid; texels across a face of a cube map
     std::uint32_t rows = 0;
     std::size_t words = 0; // of all
 
@@ -197,11 +220,20 @@ inline void set_cells(bake_room& room)
 }
 
 // Empty for routes that keep nothing.
-inline bake_room bake_room_of(const bake_job& job, const bake_request& part, bake_route route, std::size_t scratch)
+inline bake_room bake_room_of(const bake_job& job, const bake_request& part, bake_route route, const bake_gpu_options& options)
 {
     constexpr std::size_t most_block_vertices = 65536;
     constexpr std::size_t least_block_vertices = 256;
+    const std::size_t scratch = options.scratch;
     bake_room room;
+    if (route == bake_route::cube) {
+        room.columns = std::clamp(options.cube_texels, 1U, 1024U);
+        const std::size_t cube = std::size_t{ 6 } * room.columns * room.columns;
+        room.vertices = std::clamp<std::size_t>(scratch / sizeof(std::uint32_t) / cube, 16, 32768); // rows of groups
+        room.vertices = std::min(room.vertices, part.last_vertex - part.first_vertex);
+        room.words = room.vertices * cube;
+        return room;
+    }
     if (route != bake_route::packed && route != bake_route::raster) {
         return room;
     }
@@ -226,9 +258,15 @@ inline bake_room bake_room_of(const bake_job& job, const bake_request& part, bak
 }
 
 // Of this part, all 0.
-inline bake_sums empty_bake_sums(const bake_request& part, bake_route route, const char* why)
+inline bake_sums empty_bake_sums(const bake_request& part, const bake_choice& choice)
 {
-    bake_sums sums{ part.first_vertex, part.last_vertex, part.first_line, part.last_line, {}, route, why };
+    bake_sums sums{ part.first_vertex,
+                    part.last_vertex,
+                    part.first_line,
+                    part.last_line,
+                    {},
+                    choice.route,
+                    std::string(std::string_view(choice.why)) };
     sums.sums.resize(part.last_vertex - part.first_vertex);
     return sums;
 }

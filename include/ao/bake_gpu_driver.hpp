@@ -46,6 +46,7 @@ public:
           group_(group),
           execute_(execute),
           pace_(options.launch_seconds),
+          look_up_pace_(options.launch_seconds),
           triangles_(job.mesh.triangles.size()),
           tests_of_ray_(route == bake_route::hierarchy ? tests_in_tree : static_cast<double>(triangles_))
     {
@@ -69,7 +70,7 @@ public:
     // What is done from the part's first vertex and line on: all, unless progress said no.
     result<done> run()
     {
-        const auto failed = route_ == bake_route::raster ? run_raster() : run_blocks();
+        const auto failed = route_ == bake_route::raster ? run_raster() : route_ == bake_route::cube ? run_cubes() : run_blocks();
         if (failed) {
             return *failed;
         }
@@ -137,11 +138,11 @@ private:
         return static_cast<std::size_t>(steps) * step;
     }
 
-    std::optional<error> timed(bake_shader shader, std::uint32_t x, std::uint32_t y, double tests)
+    std::optional<error> timed(bake_shader shader, bake_pace& pace, std::uint32_t x, std::uint32_t y, double tests)
     {
         const auto start = std::chrono::steady_clock::now();
         auto failed = execute_(shader, launch_, x, y);
-        pace_.took(tests, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+        pace.took(tests, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
         return failed;
     }
 
@@ -154,13 +155,12 @@ private:
         }
     }
 
-    // The lines of the block up to `line` are done.
-    void report_block(double line)
+    // The lines of the block up to `line` are done, after a share of its work that was done before all lines.
+    void report_block(double line, double share_before = 0)
     {
-        const auto all = static_cast<double>(part_.last_line - part_.first_line);
-        const double block = static_cast<double>(vertices()) * (line - static_cast<double>(part_.first_line)) / all;
-        const double before = static_cast<double>(launch_.first_vertex - part_.first_vertex) + block;
-        report(before / static_cast<double>(part_.last_vertex - part_.first_vertex));
+        const double lines_done = line - static_cast<double>(part_.first_line);
+        const double share = lines_done / static_cast<double>(part_.last_line - part_.first_line);
+        report_vertices(share_before + (1 - share_before) * share);
     }
 
     std::optional<error> run_lines()
@@ -173,7 +173,7 @@ private:
             const std::size_t pairs = (next - line + 1) / 2;
             const bool by_vertex = shader == bake_shader::hierarchy;
             if (auto failed =
-                    timed(shader, groups(by_vertex ? pairs : vertices()),
+                    timed(shader, pace_, groups(by_vertex ? pairs : vertices()),
                           static_cast<std::uint32_t>(by_vertex ? vertices() : pairs), rays(next - line) * tests_of_ray_)) {
                 return failed;
             }
@@ -228,8 +228,8 @@ private:
     {
         for (std::size_t t = 0; t < triangles_ && !ended_;) {
             const std::size_t end = triangles_from(t, pace_.tests() / rays(lines()));
-            if (auto failed =
-                    timed(bake_shader::packed, groups(vertices()), launch_.words, rays(lines()) * static_cast<double>(end - t))) {
+            if (auto failed = timed(bake_shader::packed, pace_, groups(vertices()), launch_.words,
+                                    rays(lines()) * static_cast<double>(end - t))) {
                 return failed;
             }
             t = end;
@@ -302,7 +302,7 @@ private:
             for (std::size_t t = 0; t < triangles_;) {
                 const double left = static_cast<double>(rows) * starts_in_box;
                 const std::size_t end = triangles_from(t, pace_.tests() / left);
-                if (auto failed = timed(bake_shader::raster_cover, groups(end - t), static_cast<std::uint32_t>(rows),
+                if (auto failed = timed(bake_shader::raster_cover, pace_, groups(end - t), static_cast<std::uint32_t>(rows),
                                         left * static_cast<double>(end - t))) {
                     return failed;
                 }
@@ -316,6 +316,55 @@ private:
             row += rows;
         }
         return std::nullopt;
+    }
+
+    // Block of vertices after block of vertices: their cube maps, then the directions of all lines in these.
+    std::optional<error> run_cubes()
+    {
+        const std::size_t texels = std::size_t{ 6 } * room_.columns * room_.columns;
+        std::size_t first = part_.first_vertex;
+        while (first < part_.last_vertex && !ended_) {
+            const std::size_t last = std::min(first + room_.vertices, part_.last_vertex);
+            set_vertices(first, last);
+            const auto rows = static_cast<std::uint32_t>(vertices());
+            if (auto failed = execute_(bake_shader::cube_clear, launch_, groups(texels), rows)) {
+                return failed;
+            }
+            for (std::size_t t = 0; t < triangles_ && !ended_;) {
+                const std::size_t end = triangles_from(t, pace_.tests() / static_cast<double>(rows));
+                if (auto failed =
+                        timed(bake_shader::cube_depth, pace_, groups(end - t), rows, rows * static_cast<double>(end - t))) {
+                    return failed;
+                }
+                t = end;
+                report_vertices(0.9 * share_of(t));
+            }
+            std::size_t line = part_.first_line;
+            while (line < part_.last_line && !ended_) {
+                const double fitting = look_up_pace_.tests() / static_cast<double>(rows) / 2;
+                const std::size_t next =
+                    std::min(line + 2 * static_cast<std::size_t>(std::clamp(fitting, 64.0, 1e6)), part_.last_line);
+                set_lines(line, next);
+                if (auto failed =
+                        timed(bake_shader::cube_count, look_up_pace_, groups((next - line + 1) / 2), rows, rays(next - line))) {
+                    return failed;
+                }
+                line = next;
+                report_block(static_cast<double>(line), 0.9);
+            }
+            if (line == part_.last_line) {
+                first = last;
+            }
+        }
+        done_ = { first, part_.last_line };
+        return std::nullopt;
+    }
+
+    // A share of the block is done.
+    void report_vertices(double share)
+    {
+        const double before = static_cast<double>(launch_.first_vertex - part_.first_vertex);
+        report((before + share * static_cast<double>(vertices())) / static_cast<double>(part_.last_vertex - part_.first_vertex));
     }
 
     // So many of the batch's lines are done for the block.
@@ -338,6 +387,7 @@ private:
     std::uint32_t group_;
     Execute& execute_;
     bake_pace pace_;
+    bake_pace look_up_pace_; // in cube maps
     std::size_t triangles_;
     double tests_of_ray_;
     bake_launch launch_;

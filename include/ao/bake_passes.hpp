@@ -17,6 +17,15 @@ struct bake_pass {
 #include "ao/shared/bake_weight.h"
 };
 
+// Of the route `cube`. Real: float.
+template <class Real>
+struct bake_cube_pass {
+#include "ao/detail/scope.inc"
+#include "ao/shared/vector.h"
+
+#include "ao/shared/bake_cube.h"
+};
+
 // Resources: Box box<Box>(int node), vec3 corner(int triangle, int k); uniform over lanes.
 template <class Real, class Resources>
 struct bake_trace_pass {

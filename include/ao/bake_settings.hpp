@@ -24,7 +24,7 @@ enum class bake_sides { both, front };
 
 enum class bake_occluders { all, own_object, other_objects };
 
-// How visibility is found. All but `embree` give the same bits; a backend may not have all of them.
+// How visibility is found. All but `embree` and `cube` give the same bits; a backend may not have all of them.
 enum class bake_route {
     automatic,
     brute,     // every direction of a vertex against every triangle
@@ -33,6 +33,7 @@ enum class bake_route {
     hierarchy, // rays through a tree of boxes
     raster,    // direction by direction, all vertices against the triangles that cover them
     embree,    // rays by Embree, packets of sorted directions
+    cube,      // a cube map of depths around each vertex (GPU)
 };
 
 struct bake_settings {
@@ -82,7 +83,7 @@ inline std::optional<error> validate(const bake_settings& s)
             return fail("the ground needs an upward direction and a height that are finite, and the direction not 0");
         }
     }
-    if (s.route < bake_route::automatic || s.route > bake_route::embree) {
+    if (s.route < bake_route::automatic || s.route > bake_route::cube) {
         return fail("unknown route");
     }
     if (s.rotate_per_vertex && s.route == bake_route::raster) {

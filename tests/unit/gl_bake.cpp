@@ -1,6 +1,6 @@
 // Ambient occlusion per vertex in OpenGL against the reference, bit for bit.
 #include "ao/gl/bake.hpp"
-#include "unit/bake_gpu_cases.hpp"
+#include "unit/bake_cube_cases.hpp"
 #include "unit/gl_hostile.hpp"
 
 #include <string>
@@ -60,6 +60,19 @@ TEST_CASE("a bake in OpenGL leaves the host's state as it was, also between laun
         CHECK(same);
         CHECK(snapshot() == before);
         CHECK(differing_sums(*sums, *expected) == 0);
+    }
+}
+
+TEST_CASE("cube maps in OpenGL are the reference's in every texel that is looked up")
+{
+    for (const std::uint32_t texels : { 1U, 9U, 24U }) {
+        auto gl = make_baker({ .group_width = 8, .group_height = 4 },
+                             { .scratch = texels == 9 ? 1U : 1U << 24U, .cube_texels = texels });
+        const auto run = [&](const auto& job, const auto& request) { return gl.run(job, request); };
+        check_cube(run, static_cast<int>(texels));
+        if (texels == 9) {
+            check_cube_progress(run);
+        }
     }
 }
 

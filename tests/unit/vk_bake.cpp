@@ -1,6 +1,6 @@
 // Ambient occlusion per vertex on Vulkan against the reference, bit for bit.
 #include "ao/vk/bake.hpp"
-#include "unit/bake_gpu_cases.hpp"
+#include "unit/bake_cube_cases.hpp"
 #include "unit/vk_pictures.hpp"
 
 #include <string>
@@ -59,6 +59,19 @@ TEST_CASE("a bake on Vulkan says how far it is, ends when told, and goes on wher
 {
     auto vk = make_baker({ 8, 8 }, { .launch_seconds = 1e-9, .scratch = 1 });
     check_progress([&](const auto& job, const auto& request) { return vk.run(job, request); });
+    check_silence();
+}
+
+TEST_CASE("cube maps on Vulkan are the reference's in every texel that is looked up")
+{
+    for (const std::uint32_t texels : { 1U, 9U, 24U }) {
+        auto vk = make_baker({ 8, 4 }, { .scratch = texels == 9 ? 1U : 1U << 24U, .cube_texels = texels });
+        const auto run = [&](const auto& job, const auto& request) { return vk.run(job, request); };
+        check_cube(run, static_cast<int>(texels));
+        if (texels == 9) {
+            check_cube_progress(run);
+        }
+    }
     check_silence();
 }
 

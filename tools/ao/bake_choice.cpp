@@ -121,7 +121,7 @@ bake_choice choice_from(const std::string& text)
 
 ao::bake_route route_of(const bake_choice& c)
 {
-    return c.bits == "embree" ? bake_route::embree : bake_route::automatic;
+    return c.bits == "embree" ? bake_route::embree : c.bits == "cube" ? bake_route::cube : bake_route::automatic;
 }
 
 bake_wanted read_choice(const bake_choice& c)

@@ -24,7 +24,7 @@ constexpr const char* work_names[] = {
 
 ao::bake_route parse_route(const std::string& word)
 {
-    static constexpr std::array<std::pair<std::string_view, ao::bake_route>, 7> routes{ {
+    static constexpr std::array<std::pair<std::string_view, ao::bake_route>, 8> routes{ {
         { "auto", bake_route::automatic },
         { "brute", bake_route::brute },
         { "tiled", bake_route::tiled },
@@ -32,6 +32,7 @@ ao::bake_route parse_route(const std::string& word)
         { "hierarchy", bake_route::hierarchy },
         { "raster", bake_route::raster },
         { "embree", bake_route::embree },
+        { "cube", bake_route::cube },
     } };
     return choose("--route", word, routes);
 }
@@ -154,7 +155,7 @@ void add_bake_options(CLI::App& command, bake_arguments& a)
     command.add_option("--device", a.device, "part of the GL or Vulkan device's name; without it llvmpipe and lavapipe");
     command.add_option("--lanes", a.lanes, "of cpu: auto|scalar|4|8|16");
     command.add_option("--threads", a.threads, "of cpu; 0: all");
-    command.add_option("--route", a.route, "auto|brute|tiled|packed|hierarchy|raster|embree; not every backend has all");
+    command.add_option("--route", a.route, "auto|brute|tiled|packed|hierarchy|raster|embree|cube; not every backend has all");
     command.add_option("--rule", a.choice.rule,
                        "lebedev:N (N even: points; odd: order)|fibonacci:N|fibonacci-pairs:N|marsaglia:N[:SEED]|halton:N|"
                        "halton-cosine:N|file of lines x y z weight");
@@ -222,7 +223,7 @@ bake_options check_arguments(const bake_arguments& a)
     o.device = a.device;
     o.route = parse_route(a.route);
     o.choice = a.choice;
-    if (o.route == bake_route::embree)
+    if (o.route == bake_route::embree || o.route == bake_route::cube)
         o.choice.bits = a.route;
     (void)read_choice(a.choice);
     o.merge = a.merge;

@@ -117,7 +117,7 @@ std::string percent(const bake_part& p)
 
 const char* name_of(ao::bake_route route)
 {
-    constexpr const char* names[] = { "auto", "brute", "tiled", "packed", "hierarchy", "raster", "embree" };
+    constexpr const char* names[] = { "auto", "brute", "tiled", "packed", "hierarchy", "raster", "embree", "cube" };
     return names[static_cast<std::size_t>(route)];
 }
 

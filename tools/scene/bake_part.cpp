@@ -197,7 +197,7 @@ std::uint64_t key_of(const ao::bake_job& job)
     for (int i = 0; i < 4; ++i)
         h.number(static_cast<double>(job.ground[i]));
     // The only routes whose sums are their own.
-    h.word(s.route == bake_route::embree ? static_cast<std::uint64_t>(s.route) : 0);
+    h.word(s.route == bake_route::embree || s.route == bake_route::cube ? static_cast<std::uint64_t>(s.route) : 0);
     return h.value();
 }
 

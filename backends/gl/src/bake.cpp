@@ -44,6 +44,12 @@ source source_of(detail::bake_shader shader)
         return { bake_raster_sort_comp, bake_raster_sort_comp_text, constant_ids, "bake, sorting" };
     case detail::bake_shader::raster_cover:
         return { bake_raster_cover_comp, bake_raster_cover_comp_text, constant_ids, "bake, raster" };
+    case detail::bake_shader::cube_clear:
+        return { bake_cube_clear_comp, bake_cube_clear_comp_text, constant_ids, "bake, clearing of cube maps" };
+    case detail::bake_shader::cube_depth:
+        return { bake_cube_depth_comp, bake_cube_depth_comp_text, constant_ids, "bake, cube maps" };
+    case detail::bake_shader::cube_count:
+        return { bake_cube_count_comp, bake_cube_count_comp_text, constant_ids, "bake, sums of cube maps" };
     case detail::bake_shader::count_packed:
         break;
     }
@@ -115,12 +121,12 @@ result<bake_sums> baker::run(const bake_job& job, const bake_request& request)
     if (!part) {
         return part.error();
     }
-    const auto taken = detail::choose_bake_gpu_route(job, part->route);
+    const auto taken = detail::choose_bake_gpu_route(job, *part);
     if (!taken) {
         return taken.error();
     }
-    const auto [route, reason] = *taken;
-    bake_sums sums = detail::empty_bake_sums(*part, route, reason);
+    const bake_route route = taken->route;
+    bake_sums sums = detail::empty_bake_sums(*part, *taken);
     if (detail::nothing_to_bake(job, *part)) {
         return sums;
     }
@@ -132,7 +138,7 @@ result<bake_sums> baker::run(const bake_job& job, const bake_request& request)
             return program.error();
         }
     }
-    const detail::bake_room room = detail::bake_room_of(job, *part, route, state.cut.scratch);
+    const detail::bake_room room = detail::bake_room_of(job, *part, route, state.cut);
     const auto buffers = make_bake_buffers(gl, job, *part, route, room);
     if (!buffers) {
         return buffers.error();

@@ -61,13 +61,15 @@ result<bake_buffers> make_bake_buffers(const functions& gl, const bake_job& job,
     if (room.lines > 0) {
         const char* what = "the points along lines of the bake";
         made.tables[seen_unit] = buffers.storage_of_size(what, room.texels() * sizeof(glm::vec4), 0);
-        made.words = buffers.storage_of_size("what the bake finds along lines", room.words * sizeof(std::uint32_t), 0);
         if (buffers.failed()) {
             return *buffers.failed();
         }
         if (auto wrong = make_texels(gl, what, made.tables[seen_unit], GL_RGBA32F, room.texels(), made.textures[seen_unit])) {
             return *wrong;
         }
+    }
+    if (room.words > 0) {
+        made.words = buffers.storage_of_size("what the bake finds", room.words * sizeof(std::uint32_t), 0);
     }
     const detail::bake_launch empty;
     made.launch = buffers.make("a launch of the bake", std::as_bytes(std::span(&empty, 1)), GL_DYNAMIC_STORAGE_BIT);

@@ -62,6 +62,12 @@ std::span<const std::uint32_t> code_of(detail::bake_shader shader)
         return shaders::bake_raster_sort_comp;
     case detail::bake_shader::raster_cover:
         return shaders::bake_raster_cover_comp;
+    case detail::bake_shader::cube_clear:
+        return shaders::bake_cube_clear_comp;
+    case detail::bake_shader::cube_depth:
+        return shaders::bake_cube_depth_comp;
+    case detail::bake_shader::cube_count:
+        return shaders::bake_cube_count_comp;
     case detail::bake_shader::count_packed:
         break;
     }
@@ -123,16 +129,16 @@ result<bake_sums> baker::run(const bake_job& job, const bake_request& request)
     if (!part) {
         return part.error();
     }
-    const auto chosen = detail::choose_bake_gpu_route(job, part->route);
+    const auto chosen = detail::choose_bake_gpu_route(job, *part);
     if (!chosen) {
         return chosen.error();
     }
-    const auto [route, reason] = *chosen;
-    bake_sums sums = detail::empty_bake_sums(*part, route, reason);
+    const bake_route route = chosen->route;
+    bake_sums sums = detail::empty_bake_sums(*part, *chosen);
     if (detail::nothing_to_bake(job, *part)) {
         return sums;
     }
-    const detail::bake_room room = detail::bake_room_of(job, *part, route, state.options.scratch);
+    const detail::bake_room room = detail::bake_room_of(job, *part, route, state.options);
     const std::uint32_t group = detail::bake_group_of(route, state.group);
     const auto constants = detail::bake_gpu_constants_of(job, group);
     for (const detail::bake_shader shader : detail::bake_shaders_of(route)) {

@@ -175,8 +175,9 @@ std::optional<error> make_bake_buffers(bake_state& state, const bake_job& job, c
                                      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, made)) {
             return wrong;
         }
-        if (auto wrong =
-                make_storage(d, "what the bake finds along lines", words_slot, room.words * sizeof(std::uint32_t), made)) {
+    }
+    if (room.words > 0) {
+        if (auto wrong = make_storage(d, "what the bake finds", words_slot, room.words * sizeof(std::uint32_t), made)) {
             return wrong;
         }
     }

@@ -4,10 +4,12 @@
 //     auto sums = gl->run(*job, {});
 //     ao::bake_result baked = ao::finish_bake(*job, *sums);
 //
-// Routes: brute, tiled, packed (bake_route), all with the same bits; packed has neither fall-off nor rules that differ per
-// vertex. run() makes buffers, dispatches and waits, again and again: launches are cut to bake_gpu_options::launch_seconds, and
-// bake_request::progress is called between them, where the host may use the context. Where progress ends the bake, the sums are
-// those of all vertices that were finished along all lines of the part.
+// Routes: brute, tiled, packed, hierarchy, raster (bake_route), all with the same bits, and cube, which looks directions up in a
+// cube map of bake_gpu_options::cube_texels around each vertex (docs/numerics.md, "Per vertex"). Packed has no fall-off; packed
+// and raster have no rules that differ per vertex. run() makes buffers, dispatches and waits, again and again: launches are cut
+// to bake_gpu_options::launch_seconds, and bake_request::progress is called between them, where the host may use the context.
+// Where progress ends the bake, the sums are those of the vertices that were finished along all lines of the part; by raster
+// those of all vertices along the lines that were finished.
 //
 // Context, errors and lifetimes are as in ao/gl/backend.hpp; options::route is not looked at, and the product of the group's
 // width and height says how many invocations a group has, 256 at most. Memory as in ao/vk/bake.hpp.

@@ -4,15 +4,17 @@
 //     auto sums = vk->run(*job, {});
 //     ao::bake_result baked = ao::finish_bake(*job, *sums);
 //
-// Routes: brute, tiled, packed (bake_route), all with the same bits; packed has neither fall-off nor rules that differ per
-// vertex. run() makes buffers, submits to the queue and waits, again and again: launches are cut to
-// bake_gpu_options::launch_seconds, and bake_request::progress is called between them. While it runs nothing else submits to the
-// queue. Where progress ends the bake, the sums are those of all vertices that were finished along all lines of the part.
+// Routes: brute, tiled, packed, hierarchy, raster (bake_route), all with the same bits, and cube, which looks directions up in a
+// cube map of bake_gpu_options::cube_texels around each vertex (docs/numerics.md, "Per vertex"). Packed has no fall-off; packed
+// and raster have no rules that differ per vertex. run() makes buffers, submits to the queue and waits, again and again: launches
+// are cut to bake_gpu_options::launch_seconds, and bake_request::progress is called between them. While it runs nothing else
+// submits to the queue. Where progress ends the bake, the sums are those of the vertices that were finished along all lines of
+// the part; by raster those of all vertices along the lines that were finished.
 //
 // Memory on the device, bytes: 32 a vertex, 16 a triangle, 16 a point, 48 a line, 32 a vertex of the part, 48 more where the rule
-// is turned at each; hierarchy: 64 a triangle; packed: bake_gpu_options::scratch and as much as two bits for every direction of
-// 65536 vertices besides. While tables are uploaded, and sums read back, once more the same on the host's side. Device features:
-// none.
+// is turned at each; hierarchy: 64 a triangle; packed and raster: bake_gpu_options::scratch, and half as much besides (with
+// fall-off three times); packed as much as two bits for every direction of 65536 vertices; cube: scratch, at least 16 cube maps.
+// While tables are uploaded, and sums read back, once more the same on the host's side. Device features: none.
 #pragma once
 
 #include "ao/bake_gpu.hpp"

@@ -1,0 +1,9 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "bake.glsl"
+#include "ao/shared/bake_cube_depth.glsl"
+
+void main()
+{
+    ao_bake_main(ao_launch);
+}
