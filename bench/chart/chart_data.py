@@ -160,7 +160,7 @@ def convergence(chart, key):
     """By method: (taps, mean error) without a filter, at the usual storage."""
     lines = {}
     for c in chart["single"]:
-        usual = c["depth"] == "linear" and c["normals"] == "rgba16f" and c["output"] == "r32f" and c["thickness"] == 2.0
+        usual = c["depth"] == "linear" and c["normals"] == "rgba16f" and c["output"] == "r32f"
         if c["filter"] == 1 and usual and c["varies"] in ("convergence", "filter", "taps"):
             lines.setdefault(c["method"], {})[c["taps"]] = c["error"][key]
     return {method: sorted(line.items()) for method, line in lines.items() if len(line) >= 2}

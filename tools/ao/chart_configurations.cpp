@@ -13,16 +13,26 @@ constexpr int usual_filter = 5;
 
 struct family {
     const char* name;
-    ao::method method;
-    bool convergence; // has its curve
+    ao::settings base;                                // but for taps and filter
+    std::vector<std::pair<const char*, int>> presets; // names of taps, beside those of --taps
 };
 
+ao::settings of(ao::method m)
+{
+    ao::settings s;
+    s.method = m;
+    return s;
+}
+
 // A new method is one line here.
-constexpr std::array<family, 3> families{ {
-    { "box", method::box, true },
-    { "hemisphere", method::hemisphere, true },
-    { "halton", method::halton, true },
-} };
+std::vector<family> families()
+{
+    return {
+        { "box", of(method::box), {} },
+        { "hemisphere", of(method::hemisphere), {} },
+        { "halton", of(method::halton), {} },
+    };
+}
 
 constexpr std::array<const char*, 2> temporal_methods{ "ritschel", "fox-compton" };
 
@@ -36,7 +46,7 @@ chart_configuration make(const family& f, int taps, int filter, const std::strin
     chart_configuration c;
     c.method = f.name;
     c.varies = varies;
-    c.settings.method = f.method;
+    c.settings = f.base;
     c.settings.taps = taps;
     c.settings.filter = filter;
     c.name = c.method + " " + std::to_string(taps) + (taps == 1 ? " tap" : " taps");
@@ -87,7 +97,7 @@ void add_choices(std::vector<chart_configuration>& all, const family& f)
 std::vector<std::string> chart_methods()
 {
     std::vector<std::string> names;
-    for (const family& f : families)
+    for (const family& f : families())
         names.emplace_back(f.name);
     names.insert(names.end(), temporal_methods.begin(), temporal_methods.end());
     return names;
@@ -96,20 +106,28 @@ std::vector<std::string> chart_methods()
 std::vector<chart_configuration> single_configurations(const chart_options& o)
 {
     std::vector<chart_configuration> all;
-    for (const family& f : families) {
+    for (const family& f : families()) {
         if (!wanted(o, f.name))
             continue;
         for (const int taps : o.taps)
             all.push_back(make(f, taps, usual_filter, "taps"));
-        if (f.method == method::box) {
+        for (const auto& [name, taps] : f.presets) {
+            chart_configuration c = make(f, taps, usual_filter, "taps");
+            c.name = c.method + " " + name + ", " + std::to_string(taps) + " taps";
+            std::erase_if(all, [&, taps = taps](const chart_configuration& each) {
+                return each.method == c.method && each.settings.taps == taps;
+            });
+            all.push_back(c);
+        }
+        if (f.base.method == method::box) {
             // As printed in paper 1.
             chart_configuration printed = named(make(f, 32, usual_filter, "thickness"), "infinite thickness");
             printed.settings.thickness = std::numeric_limits<float>::infinity();
             all.push_back(printed);
         }
-        if (f.method == method::hemisphere)
+        if (f.base.method == method::hemisphere)
             add_choices(all, f);
-        for (int taps = 4; f.convergence && taps <= 256; taps *= 2) {
+        for (int taps = 4; taps <= 256; taps *= 2) {
             chart_configuration c = make(f, taps, 1, "convergence");
             c.timed = false;
             const auto same = [&](const chart_configuration& other) { return other.name == c.name; };

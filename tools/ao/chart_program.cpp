@@ -17,14 +17,22 @@ void chart(const chart_options& o)
         check_writable(o.json);
     chart_results r;
     r.options = o;
-    if (o.rounds > 0)
+    // What is done is kept, whatever becomes of the rest.
+    const auto keep = [&] {
+        if (!o.json.empty())
+            write_file(o.json, json_of(r));
+    };
+    if (o.rounds > 0) {
         chart_single_frames(r);
-    if (o.frames > 0)
+        keep();
+    }
+    if (o.frames > 0) {
         chart_motion(r);
+        keep();
+    }
     if (o.vertices)
         chart_vertices(r);
-    if (!o.json.empty())
-        write_file(o.json, json_of(r));
+    keep();
     std::fputs(table_of(r).c_str(), stdout);
     if (std::fflush(stdout) != 0)
         throw error("cannot write to the standard output");
