@@ -65,7 +65,7 @@ struct bake_brute {
     AO_BAKE_KERNEL static void brute(const bake_task& task, const bake_line& line, bake_brute_memory& m, const bake_view& view,
                                      std::size_t first, std::size_t last, bake_second* seconds, std::size_t& second_count)
     {
-        bake_raster<Real>::see(line, task.occluders.points, task.occluders.point_count, m.points);
+        bake_raster_grid<Real>::see(line, task.occluders.points, task.occluders.point_count, m.points);
         expand(task, m);
         const auto l = wide_line<Real>(line);
         const bake_receiver_arrays& r = task.receivers;

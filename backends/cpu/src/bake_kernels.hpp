@@ -30,7 +30,9 @@ struct bake_occluder_arrays {
     bake_vectors points;
     std::size_t point_count = 0;
     const std::int32_t* corners[3] = {}; // points of each triangle
+    bake_vectors places[3];              // of these points, where the raster needs them
     std::size_t triangle_count = 0;
+    const std::int32_t* closed = nullptr; // 1: of a closed surface (bake_closed.hpp); null: none is
 };
 
 // What sends rays: the vertices that are baked.
@@ -50,6 +52,12 @@ struct bake_options {
     bool ground = false;
     float ground_plane[4] = {};
 };
+
+// Where every hit is as good as any other, however far.
+inline bool is_plain(const bake_options& o)
+{
+    return !o.limited && !o.front && o.falloff == 0;
+}
 
 struct bake_task {
     bake_occluder_arrays occluders;
@@ -74,18 +82,25 @@ struct bake_totals {
     std::int32_t* parts[7] = {}; // open, all, changes, count, x, y, z
 };
 
+// Samples whose verdict only all triangles can tell (bake_raster_memory::doubtful).
+inline constexpr std::size_t bake_most_doubtful = 64;
+
 // Memory of a thread for bake_kernel_table::raster.
 struct bake_raster_memory {
-    bake_seen points;
     bake_seen starts;
-    bake_seen samples;                 // sorted: those that look along d, then those that look along -d
+    float* toward = nullptr;           // depth of the starts along the direction they look in
+    bake_seen samples;                 // sorted by groups (bake_raster_grid.hpp), then by cells
     std::int32_t* receivers = nullptr; // of the samples; -1 - i: of seconds[i]
     std::int32_t* cells = nullptr;     // of the starts
     std::int32_t* tiles = nullptr;
-    std::int32_t* first = nullptr; // sample of each cell, of both groups
+    std::int32_t* first = nullptr; // sample of each cell, of all groups
     float* tile_depths = nullptr;
-    std::uint64_t* hit = nullptr; // a bit per sample
-    float* distances = nullptr;   // of the samples, where there is a fall-off
+    std::int32_t doubtful[bake_most_doubtful] = {};
+    std::size_t doubtful_count = 0; // may be greater than there is room for
+    int lines = 0;                  // done, while only entered triangles were looked at
+    int repeated = 0;               // of these, with all triangles
+    std::uint64_t* hit = nullptr;   // a bit per sample
+    float* distances = nullptr;     // of the samples, where there is a fall-off
     bake_second* seconds = nullptr;
     std::size_t second_count = 0;
     int rows = 0;

@@ -1,6 +1,8 @@
 #include "bake_lines.hpp"
 
+#include "bake_closed.hpp"
 #include "bake_memory.hpp"
+#include "bake_rays.hpp"
 
 #include "ao/bake_passes.hpp"
 
@@ -103,6 +105,12 @@ void bake_by_lines(const bake_job& job, const bake_request& request, const bake_
         if (made.back().vertices.empty()) {
             made.pop_back();
         }
+        else if (sums.route == bake_route::raster) {
+            add_corner_places(made.back());
+            if (objects.empty() && is_plain(made.back().task.options)) {
+                find_closed_surfaces(made.back());
+            }
+        }
     }
     std::vector<std::vector<std::unique_ptr<bake_line_memory>>> memories(made.size());
     for (auto& of_group : memories) {
@@ -127,6 +135,12 @@ void bake_by_lines(const bake_job& job, const bake_request& request, const bake_
                 }
             });
         }
+        for (const bake_group& group : made) {
+            if (!group.apart.empty()) {
+                add_rays(job, group, kernels, group.apart, sums.first_line + 2 * done,
+                         std::min(sums.first_line + 2 * next, sums.last_line), workers, sums);
+            }
+        }
         done = next;
         if (request.progress && !request.progress(static_cast<double>(done) / static_cast<double>(pairs))) {
             break;
@@ -134,8 +148,15 @@ void bake_by_lines(const bake_job& job, const bake_request& request, const bake_
     }
     sums.last_line = std::min(sums.last_line, sums.first_line + 2 * done);
     for (std::size_t g = 0; g < made.size(); ++g) {
+        std::vector<bool> by_rays(made[g].vertices.size());
+        for (const std::uint32_t receiver : made[g].apart) {
+            by_rays[receiver] = true;
+        }
         for (const auto& memory : memories[g]) {
             for (std::size_t i = 0; memory && i < made[g].vertices.size(); ++i) {
+                if (by_rays[i]) {
+                    continue;
+                }
                 sums.sums[made[g].vertices[i] - sums.first_vertex] += sum_of(memory->totals, i);
             }
         }

@@ -113,6 +113,19 @@ bake_group make_bake_group(const bake_job& job, std::size_t first, std::size_t l
     return group;
 }
 
+void add_corner_places(bake_group& group)
+{
+    for (std::size_t k = 0; k < 3; ++k) {
+        bake_vector_arrays& places = group.places[k];
+        for (std::size_t i = 0; i < group.task.occluders.triangle_count; ++i) {
+            const auto p = static_cast<std::size_t>(group.corners[k][i]);
+            places.push_back({ group.points.x[p], group.points.y[p], group.points.z[p] });
+        }
+        places.pad();
+        group.task.occluders.places[k] = places.view();
+    }
+}
+
 float* bake_line_memory::floats(std::size_t count)
 {
     return float_arrays_.emplace_back(count + bake_padding).data();
@@ -135,21 +148,20 @@ bake_line_memory::bake_line_memory(const bake_task& task, bool with_raster)
     for (std::int32_t*& part : totals.parts) {
         part = words(receivers);
     }
-    const bake_seen seen_points = seen(points);
     if (!with_raster) {
-        brute.points = seen_points;
+        brute.points = seen(points);
         for (float*& corner : brute.corners) {
             corner = floats(task.occluders.triangle_count);
         }
         return;
     }
-    raster.points = seen_points;
     raster.starts = seen(receivers);
     const std::size_t samples = 2 * receivers + 3 * bake_padding;
     raster.samples = seen(samples);
     raster.receivers = words(samples);
     raster.cells = words(receivers);
     raster.tiles = words(receivers);
+    raster.toward = floats(receivers);
     // Rows about as high as triangles are, columns finer: measured.
     const double side = std::sqrt(static_cast<double>(receivers));
     raster.rows = std::clamp(static_cast<int>(side * 0.3), 1, 4096);

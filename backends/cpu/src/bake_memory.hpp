@@ -38,7 +38,11 @@ struct bake_group {
     bake_vector_arrays normals;
     bake_vector_arrays points;
     std::vector<std::int32_t> corners[3];
-    bake_tree own_tree; // of these triangles, where they are not the mesh's
+    // bake_closed.hpp: 1 for triangles of closed surfaces, and the receivers that must meet all triangles even so.
+    std::vector<std::int32_t> closed;
+    std::vector<std::uint32_t> apart;
+    bake_vector_arrays places[3]; // of the corners
+    bake_tree own_tree;           // of these triangles, where they are not the mesh's
     const bake_node* nodes = nullptr;
     bake_task task;
 };
@@ -46,6 +50,9 @@ struct bake_group {
 // Baked vertices first ... last - 1 of the job with this object, or with any; near ones near in memory.
 // `tree`: it is needed.
 bake_group make_bake_group(const bake_job& job, std::size_t first, std::size_t last, const std::uint32_t* object, bool tree);
+
+// What the raster needs besides.
+void add_corner_places(bake_group& group);
 
 // The objects whose vertices must be baked apart; empty: none.
 std::vector<std::uint32_t> separate_objects(const bake_job& job);

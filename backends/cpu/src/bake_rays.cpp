@@ -54,6 +54,26 @@ struct vertex_memory {
     std::vector<float> seconds;
 };
 
+std::vector<vertex_memory> make_memories(const threads& workers, std::size_t lines)
+{
+    std::vector<vertex_memory> memories(static_cast<std::size_t>(workers.count()));
+    for (vertex_memory& m : memories) {
+        m.open.resize(lines + bake_padding);
+        m.cosine.resize(lines + bake_padding);
+        m.seconds.resize(lines + bake_padding);
+    }
+    return memories;
+}
+
+bake_ray_task rays_along(const line_arrays& lines)
+{
+    bake_ray_task rays;
+    for (std::size_t i = 0; i < lines.parts.size(); ++i) {
+        rays.lines[i] = lines.parts[i].data();
+    }
+    return rays;
+}
+
 struct vertex_taker {
     const bake_job& job;
     const bake_group& group;
@@ -122,21 +142,30 @@ make_bake_shooter tree_shooter(const bake_kernel_table& kernels)
     };
 }
 
+void add_rays(const bake_job& job, const bake_group& group, const bake_kernel_table& kernels,
+              const std::vector<std::uint32_t>& receivers, std::size_t first, std::size_t last, threads& workers, bake_sums& sums)
+{
+    const line_arrays lines(job.lines);
+    const bake_ray_task rays = rays_along(lines);
+    std::vector<vertex_memory> memories = make_memories(workers, job.lines.size());
+    const through_tree shooter(kernels, group);
+    const vertex_taker taker{ job, group, shooter, rays };
+    workers.over(static_cast<int>(receivers.size()), [&](int begin, int end) {
+        vertex_memory& memory = memories[workers.own_index()];
+        for (int i = begin; i < end; ++i) {
+            const std::uint32_t receiver = receivers[static_cast<std::size_t>(i)];
+            sums.sums[group.vertices[receiver] - sums.first_vertex] += taker.take(receiver, first, last, memory);
+        }
+    });
+}
+
 result<success> bake_by_vertices(const bake_job& job, const bake_request& request, const make_bake_shooter& make,
                                  threads& workers, bake_sums& sums)
 {
     const std::vector<std::uint32_t> objects = separate_objects(job);
     const line_arrays lines(job.lines);
-    bake_ray_task rays;
-    for (std::size_t i = 0; i < lines.parts.size(); ++i) {
-        rays.lines[i] = lines.parts[i].data();
-    }
-    std::vector<vertex_memory> memories(static_cast<std::size_t>(workers.count()));
-    for (vertex_memory& m : memories) {
-        m.open.resize(job.lines.size() + bake_padding);
-        m.cosine.resize(job.lines.size() + bake_padding);
-        m.seconds.resize(job.lines.size() + bake_padding);
-    }
+    const bake_ray_task rays = rays_along(lines);
+    std::vector<vertex_memory> memories = make_memories(workers, job.lines.size());
     // One after the other in the order of vertices, so that what is done is a range: by far more vertices than threads at a time.
     const std::size_t wanted = sums.last_vertex - sums.first_vertex;
     const bool whole = !request.progress && objects.empty();

@@ -9,6 +9,7 @@
 
 #include <functional>
 #include <memory>
+#include <vector>
 
 namespace ao::cpu::detail {
 
@@ -29,5 +30,10 @@ make_bake_shooter tree_shooter(const bake_kernel_table& kernels);
 // sums: route and range as wanted, all sums 0. Where progress ends the bake, sums.last_vertex is what was done.
 result<success> bake_by_vertices(const bake_job& job, const bake_request& request, const make_bake_shooter& make,
                                  threads& workers, bake_sums& sums);
+
+// Adds lines first ... last - 1 of some receivers of a group to their sums.
+void add_rays(const bake_job& job, const bake_group& group, const bake_kernel_table& kernels,
+              const std::vector<std::uint32_t>& receivers, std::size_t first, std::size_t last, threads& workers,
+              bake_sums& sums);
 
 } // namespace ao::cpu::detail
