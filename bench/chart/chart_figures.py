@@ -71,7 +71,7 @@ def scatter(fig, axes, points, chart, marker=None, y="y"):
         inside = "white" if p["hollow"] else tint if at_front else "#cfcfcf"
         fig.point(
             axes, p["x"], p[y], data.described(p, chart), marker=shape, markersize=6 if at_front else 4.2,
-            markerfacecolor=inside, markeredgecolor=tint if at_front else GREY, markeredgewidth=1, zorder=3 if at_front else 2,
+            markerfacecolor=inside, markeredgecolor=tint, markeredgewidth=1 if at_front else 0.6, zorder=3 if at_front else 2,
         )
     if kept:
         end = max(p["x"] for p in points) * 1.15

@@ -15,6 +15,7 @@ void chart(const chart_options& o)
         make_directory(o.out);
     if (!o.json.empty())
         check_writable(o.json);
+    (void)places_of(o);
     chart_results r;
     r.options = o;
     // What is done is kept, whatever becomes of the rest.
