@@ -2,9 +2,17 @@
 #include "core_bake_meshes.hpp"
 
 #include "ao/bake.hpp"
+#include "ao/bake_crease.hpp"
 #include "ao/conformance/bake_reference.hpp"
 
 #include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <random>
+#include <vector>
 
 using namespace bake_test;
 
@@ -69,4 +77,55 @@ TEST_CASE("walls through a vertex block what is behind them: the joints of a roo
         ++joint;
     }
     CHECK(std::abs(sum - exact_sum) / joint < 1e-3);
+}
+
+namespace {
+
+// A cone of rough ridges around vertex 0.
+mesh fan(std::uint32_t faces)
+{
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> height(0.0, 3.0 / faces);
+    mesh m;
+    m.positions.emplace_back(0.0, 0.0, 1.0);
+    for (std::uint32_t i = 0; i < faces; ++i) {
+        const double angle = 2 * std::numbers::pi * i / faces;
+        m.positions.emplace_back(std::cos(angle), std::sin(angle), height(random));
+        m.indices.insert(m.indices.end(), { 0, 1 + i, 1 + (i + 1) % faces });
+    }
+    return m;
+}
+
+// The normal of the apex in one face, face by face.
+glm::dvec3 apex_normal(const mesh& m, std::size_t face, double degrees)
+{
+    const auto corner = [&](std::size_t f, std::size_t k) { return m.positions[m.indices[3 * f + k]]; };
+    const auto normal = [&](std::size_t f) {
+        return glm::normalize(glm::cross(corner(f, 1) - corner(f, 0), corner(f, 2) - corner(f, 0)));
+    };
+    glm::dvec3 sum(0.0);
+    for (std::size_t f = 0; f < m.indices.size() / 3; ++f) {
+        if (glm::dot(normal(face), normal(f)) >= std::cos(degrees * std::numbers::pi / 180) - 1e-9) {
+            const glm::dvec3 a = glm::normalize(corner(f, 1) - corner(f, 0));
+            const glm::dvec3 b = glm::normalize(corner(f, 2) - corner(f, 0));
+            sum += normal(f) * std::acos(std::clamp(glm::dot(a, b), -1.0, 1.0));
+        }
+    }
+    return glm::normalize(sum);
+}
+
+} // namespace
+
+TEST_CASE("corners around a vertex of many faces take the faces within the crease angle", "[bake][crease]")
+{
+    const std::uint32_t faces = GENERATE(7U, 300U, 100000U);
+    const double degrees = GENERATE(20.0, 60.0);
+    const mesh m = fan(faces);
+    const ao::split_mesh split = ao::split_by_crease(m.positions, m.indices, degrees);
+    REQUIRE(split.indices.size() == m.indices.size());
+    for (std::size_t f = 0; f < faces; f += 1 + faces / 30) {
+        const std::uint32_t vertex = split.indices[3 * f];
+        CHECK(split.source[vertex] == 0);
+        CHECK(glm::distance(glm::dvec3(split.normals[vertex]), apex_normal(m, f, degrees)) < 1e-4);
+    }
 }

@@ -2,6 +2,8 @@
 #include "ao/outcome.hpp"
 #include "ao/rule_text.hpp"
 
+#include "ao/bake_crease.hpp"
+
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
