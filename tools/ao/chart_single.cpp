@@ -194,7 +194,6 @@ void chart_single_frames(chart_results& r)
     const chart_options& o = r.options;
     for (chart_configuration& c : single_configurations(o)) {
         single_result next;
-        chart_pictures size;
         c.facts.width = o.size.width;
         c.facts.height = o.size.height;
         tools::frustum any;
