@@ -106,12 +106,17 @@ public:
         const temporal_test::scene_frame& f = frame_at(row_.moves, frame_++);
         take(runner_->upload(f.inputs.depth, f.inputs.normal, f.inputs.motion));
         double sum = 0;
+        double after = 0;
         for (const host::temporal_pass_time& each : take(runner_->frame(f.camera, row_.cut))) {
             sum += each.ms;
             if (each.pass == temporal_pass_type::accumulate) {
                 accumulate.times.push_back(each.ms);
             }
+            else if (each.pass != temporal_pass_type::linearize) {
+                after += each.ms;
+            }
         }
+        filter.times.push_back(after);
         return sum;
     }
 
@@ -149,6 +154,7 @@ public:
     bool exact() const { return runner_->exact(); }
 
     contestant accumulate;
+    contestant filter; // and resolve
 
 private:
     row row_;
@@ -192,6 +198,7 @@ void compare(std::string_view backend)
     for (const row& each : all) {
         subjects.push_back(std::make_unique<subject>(backend, each));
         subjects.back()->accumulate.times.clear();
+        subjects.back()->filter.times.clear();
         field.push_back({ each.name, [s = subjects.back().get()] { return s->run(); }, {} });
     }
     measure(field, rounds);
@@ -223,15 +230,18 @@ void compare(std::string_view backend)
 
     const double fresh = field[1].median();
     const double fresh_pass = median_of(subjects[0]->accumulate);
+    const double fresh_filter = median_of(subjects[0]->filter);
     std::printf(
-        "## %s, %dx%d\n\n| | samples a pixel | their pass, ms | of 32 fresh | frame, ms | of 32 fresh | of the ao effect |\n"
-        "|---|---|---|---|---|---|---|\n",
+        "## %s, %dx%d\n\n| | samples a pixel | their pass, ms | of 32 fresh | resolve and filter, ms | of 32 fresh | frame, ms | "
+        "of 32 fresh | of the ao effect |\n"
+        "|---|---|---|---|---|---|---|---|---|\n",
         std::string(backend).c_str(), width, height);
     for (std::size_t i = 0; i < field.size(); ++i) {
         const double pass = median_of(i == 0 ? plain.occlusion : subjects[i - 1]->accumulate);
         const double ms = field[i].median();
-        std::printf("| %s | %s | %.2f | %.2f | %.2f | %.2f | %.2f |\n", field[i].name.c_str(), samples[i].c_str(), pass,
-                    pass / fresh_pass, ms, ms / fresh, ms / field[0].median());
+        const double after = i == 0 ? ms - pass : median_of(subjects[i - 1]->filter);
+        std::printf("| %s | %s | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f |\n", field[i].name.c_str(), samples[i].c_str(),
+                    pass, pass / fresh_pass, after, after / fresh_filter, ms, ms / fresh, ms / field[0].median());
     }
     std::printf("\n");
     std::fflush(stdout);

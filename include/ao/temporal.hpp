@@ -29,18 +29,19 @@ struct temporal_options {
     bool rotate_normals = false;
     bool parallel = false;
     bool limit_thickness = false;
-    int filter_radius = 0;
-    bool affine = false; // linearize
+    int filter_radius = 0; // resolve: that of the filter behind it, or 0
+    bool affine = false;   // linearize
 
     friend constexpr bool operator==(const temporal_options&, const temporal_options&) = default;
 };
 
 enum class temporal_pass_type {
-    linearize,      // ao_linearize_pass: depth -> the program's own eye depth (r32f)
-    accumulate,     // ao_accumulate_pass: eye depth, normal, motion, the last history -> this frame's history
+    linearize,  // ao_linearize_pass: depth -> the program's own eye depth (r32f)
+    accumulate, // ao_accumulate_pass: eye depth, normal, motion, the last history -> this frame's history
+    resolve,    // ao_temporal_resolve_pass: history -> visibility
+    // Need to run only in tiles, of any size, in which ao_to_be_filtered holds somewhere; the result is the same.
     filter_rows,    // ao_temporal_rows_pass: history, eye depth -> the program's own row values (r32f)
     filter_columns, // ao_temporal_columns_pass: history, eye depth, row values -> visibility
-    resolve,        // ao_temporal_resolve_pass: history -> visibility
 };
 
 using temporal_constants = temporal_pass<float, no_resources>::ao_temporal_constants;
@@ -127,7 +128,7 @@ struct temporal_state {
 
 // What a frame runs: steps in order.
 struct temporal_frame {
-    inline_vector<std::size_t, 4> steps;
+    inline_vector<std::size_t, 5> steps;
     int read = 0;  // history buffer of the last frame
     int write = 0; // of this frame; where steps is empty, the one that stays
 };
@@ -290,11 +291,12 @@ constexpr result<temporal_plan> make_temporal_plan(const temporal_settings& s, c
         o.rotate_normals = f.frame.world_normals && f.frame.normals != normal_source::from_depth;
         o.limit_thickness = s.thickness <= std::numeric_limits<float>::max();
     }
-    if (s.filter > 1 && s.spatial > 0) {
-        add(temporal_pass_type::filter_rows).filter_radius = s.filter / 2;
-        add(temporal_pass_type::filter_columns).filter_radius = s.filter / 2;
+    const int filter_radius = s.spatial > 0 ? s.filter / 2 : 0;
+    add(temporal_pass_type::resolve).filter_radius = filter_radius;
+    if (filter_radius > 0) {
+        add(temporal_pass_type::filter_rows).filter_radius = filter_radius;
+        add(temporal_pass_type::filter_columns).filter_radius = filter_radius;
     }
-    add(temporal_pass_type::resolve);
     return p;
 }
 
@@ -337,10 +339,6 @@ constexpr result<temporal_frame> next_frame(temporal_plan& p, temporal_state& st
     // Whether some pixel may still be filtered.
     const auto least = static_cast<float>(still_frames) * static_cast<float>(p.settings.most_weight) / static_cast<float>(enough);
     const bool filtered = !still || least < p.settings.spatial * static_cast<float>(p.settings.most_weight);
-    bool filters = false;
-    for (const temporal_step& step : p.steps) {
-        filters = filters || step.type == temporal_pass_type::filter_rows;
-    }
     for (std::size_t i = 0; i < p.steps.size(); ++i) {
         temporal_step& step = p.steps[i];
         switch (step.type) {
@@ -354,11 +352,10 @@ constexpr result<temporal_frame> next_frame(temporal_plan& p, temporal_state& st
                 frame.steps.push_back(i);
             }
             break;
+        case temporal_pass_type::resolve:
         case temporal_pass_type::filter_rows:
-        case temporal_pass_type::filter_columns:
-        case temporal_pass_type::resolve: {
-            const bool wanted = (step.type == temporal_pass_type::resolve) != (filters && filtered);
-            if (wanted) {
+        case temporal_pass_type::filter_columns: {
+            if (step.type == temporal_pass_type::resolve || filtered) {
                 temporal_filter_constants c{};
                 c.projection = std::bit_cast<decltype(c.projection)>(folded.projection);
                 c.width = static_cast<float>(p.facts.frame.width);

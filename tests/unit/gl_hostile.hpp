@@ -62,6 +62,7 @@ inline std::string snapshot()
                                GL_SHADER_STORAGE_BUFFER_BINDING,
                                GL_ARRAY_BUFFER_BINDING,
                                GL_DRAW_INDIRECT_BUFFER_BINDING,
+                               GL_DISPATCH_INDIRECT_BUFFER_BINDING,
                                GL_DEPTH_WRITEMASK,
                                GL_DEPTH_FUNC,
                                GL_CULL_FACE_MODE,
@@ -194,6 +195,7 @@ public:
         }
         BindBuffer(GL_SHADER_STORAGE_BUFFER, 0);
         BindBuffer(GL_DRAW_INDIRECT_BUFFER, buffer_);
+        BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, buffer_);
         entry<decltype(glBindVertexArray)>("glBindVertexArray")(vertex_array_);
         entry<decltype(glBindFramebuffer)>("glBindFramebuffer")(GL_FRAMEBUFFER, framebuffer_);
         set_unpack();

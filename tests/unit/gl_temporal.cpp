@@ -1,5 +1,6 @@
 // OpenGL's executor of temporal plans.
 #include "ao/gl/temporal.hpp"
+#include "unit/cpu_allocations.hpp"
 #include "unit/gl_hostile.hpp"
 #include "unit/temporal_cases.hpp"
 
@@ -104,7 +105,7 @@ TEST_CASE("hostile state changes no bit of a history, and is put back where that
             host.set_unpack();
             const auto frame = ao::next_frame(*plan, state, f.frame.camera);
             REQUIRE(frame);
-            CHECK(frame->steps.size() == 4);
+            CHECK(frame->steps.size() == 5);
             for (std::size_t i = 0; i < frame->steps.size(); ++i) {
                 gl.record_temporal({}, *program, *bound, *plan, *frame, i);
                 INFO("step " << i << ", restore " << restore);
@@ -118,6 +119,38 @@ TEST_CASE("hostile state changes no bit of a history, and is put back where that
         }
     }
 }
+
+#if defined(AO_COUNTS_ALLOCATIONS)
+TEST_CASE("a temporal frame on OpenGL allocates nothing, the state of the host put back or not")
+{
+    temporal_case c = base_case("allocations");
+    c.frames = 12; // the filter runs, too; drivers compile in the first ones
+    const auto frames = make_sequence(c);
+    const ao::conformance::temporal_inputs& first = frames[0].frame.inputs;
+    const auto depth = upload(first.depth);
+    const auto normal = upload(first.normal);
+    const auto motion = upload(first.motion);
+    const auto visibility = make_texture(ao::pixel_format::r32f, c.facts.frame.width, c.facts.frame.height);
+    for (const bool restore : { true, false }) {
+        auto gl = make_gl({ .restore_state = restore });
+        auto made = ao::temporal_effect<ao::gl::temporal>::create(gl, c.settings, c.facts);
+        REQUIRE(made);
+        auto bound = made->bind({ depth.name, normal.name, motion.name, visibility.name });
+        REQUIRE(bound);
+        int allocated = 0;
+        bool failed = false;
+        for (std::size_t i = 0; i < frames.size(); ++i) {
+            const int before = cpu_test::allocations();
+            failed = made->record({}, *bound, frames[i].frame.camera).has_value() || failed;
+            allocated += i < 4 ? 0 : cpu_test::allocations() - before;
+        }
+        INFO("restore " << restore);
+        CHECK_FALSE(failed);
+        CHECK(allocated == 0);
+        CHECK(take_error() == GL_NO_ERROR);
+    }
+}
+#endif
 
 TEST_CASE("temporal binding names the texture that does not fit")
 {

@@ -234,8 +234,8 @@ ao::result<temporal_runner_ptr> make_vk_temporal_runner(const vk_runner_options&
     if (!device) {
         return device_error(device.reason());
     }
-    // A frame has four steps at most.
-    auto timer = vulkan_timer::create(**device, 5);
+    // A frame has five steps at most.
+    auto timer = vulkan_timer::create(**device, 6);
     if (!timer) {
         return device_error(timer.reason());
     }

@@ -55,13 +55,20 @@ struct temporal_arguments {
     const float* rotation = nullptr;
     const float* taps = nullptr; // all x, then all y, then all z
     std::size_t tap_plane = 0;   // floats of each
+    // Of each row of each tile, row by row: whether a pixel in it is to be filtered. Written by resolve.
+    std::uint8_t* filtered = nullptr;
+    int tile_width = 1;
 };
 
 using kernel = void (*)(const pass_arguments&, const tile&);
 using temporal_kernel = void (*)(const temporal_arguments&, const tile&);
 
+struct accumulate_table {
+    temporal_kernel of[2][2]; // [fox_compton][precise history]
+};
+
 struct temporal_kernel_table {
-    temporal_kernel accumulate[3][2]; // [0: still, 1: reproject, 2: reproject, cubic][fox_compton]
+    accumulate_table accumulate[3]; // 0: still, 1: reproject, 2: reproject, cubic
     temporal_kernel filter_rows;
     temporal_kernel filter_columns;
     temporal_kernel resolve;

@@ -21,6 +21,8 @@ struct temporal_program_state {
     detail::aligned_floats linear_depth;
     detail::aligned_floats rows;
     std::array<detail::aligned_words, 2> histories; // as temporal_resources.hpp reads them
+    std::unique_ptr<std::uint8_t[]> filtered;       // of each row of each tile
+    int tile_width = 0;
 
     std::size_t history_size() const { return static_cast<std::size_t>(words) * pixels; }
 };
@@ -116,6 +118,10 @@ result<temporal_program> temporal::prepare_temporal(const temporal_plan& p)
         history = detail::allocate_words(made->history_size());
         complete = complete && history;
     }
+    made->tile_width = machine_->workers->tile_width;
+    const int columns = (f.width + made->tile_width - 1) / made->tile_width;
+    made->filtered.reset(new (std::nothrow) std::uint8_t[static_cast<std::size_t>(columns) * static_cast<std::size_t>(f.height)]);
+    complete = complete && made->filtered;
     if (!complete) {
         return error(errc::out_of_memory, "no memory for the histories and the pictures between the passes");
     }
@@ -200,6 +206,9 @@ void temporal::record_temporal(commands, temporal_program& program, temporal_bin
     a.rotation = state.rotation.get();
     a.taps = state.taps.get();
     a.tap_plane = state.period;
+    assert(state.tile_width == machine_->workers->tile_width);
+    a.filtered = state.filtered.get();
+    a.tile_width = state.tile_width;
 
     const detail::temporal_kernel_table& kernels = machine_->kernels.temporal;
     switch (step.type) {
@@ -207,8 +216,9 @@ void temporal::record_temporal(commands, temporal_program& program, temporal_bin
         return;
     case temporal_pass_type::accumulate: {
         const int motion = step.options.reproject ? (step.options.cubic ? 2 : 1) : 0;
+        const std::size_t precise = p.settings.format == history_format::precise ? 1 : 0;
         const bool patches = step.options.contribution == static_cast<int>(contribution_type::fox_compton);
-        return machine_->run(kernels.accumulate[motion][patches ? 1 : 0], a);
+        return machine_->run(kernels.accumulate[motion].of[patches ? 1 : 0][precise], a);
     }
     case temporal_pass_type::filter_rows:
         return machine_->run(kernels.filter_rows, a);

@@ -25,14 +25,14 @@ struct temporal_kernels {
     }
 
     // Options that are asked per tap or texel are constants.
-    template <bool Reproject, bool Cubic, bool Patches>
+    template <bool Reproject, bool Cubic, bool Patches, bool Precise>
     AO_CPU_KERNEL static void accumulate(const temporal_arguments& a, const tile& t)
     {
         temporal_pass<Real, temporal_resources<Real>> pass{};
         const temporal_options& o = a.options;
         pass.ao_most_samples = o.most_samples;
         pass.ao_contribution = Patches ? pass.ao_fox_compton : pass.ao_ritschel;
-        pass.ao_history_format = o.history_format;
+        pass.ao_history_format = Precise ? pass.ao_history_precise : o.history_format;
         pass.ao_invalidation = o.invalidation;
         pass.ao_reproject = Reproject;
         pass.ao_use_motion = Reproject && o.use_motion;
@@ -66,19 +66,48 @@ struct temporal_kernels {
         });
     }
 
-    template <class Call>
-    static void filter(const temporal_arguments& a, const tile& t, Call call)
+    template <bool Reproject, bool Cubic>
+    static constexpr accumulate_table accumulate_kernels{
+        { { accumulate<Reproject, Cubic, false, false>, accumulate<Reproject, Cubic, false, true> },
+          { accumulate<Reproject, Cubic, true, false>, accumulate<Reproject, Cubic, true, true> } }
+    };
+
+    using filter_pass = temporal_filter_pass<Real, temporal_filter_resources<Real>>;
+
+    static filter_pass make_filter_pass(const temporal_arguments& a)
     {
-        temporal_filter_pass<Real, temporal_filter_resources<Real>> pass{};
+        filter_pass pass{};
         pass.ao_filter_radius = a.options.filter_radius;
         pass.ao_history_format = a.options.history_format;
         pass.ao_parallel = a.options.parallel;
         pass.resources.eye_depth = reader<Real>(a.depth);
         pass.resources.rows = reader<Real>(a.rows);
         pass.resources.now = history(a);
-        const auto c = pixels::template constants<typename decltype(pass)::ao_temporal_filter_constants>(a);
-        pixels::for_blocks(
-            t, [&](ivec2 pixel, int x, int y, int count) { pixels::store(a.target, x, y, call(pass, c, pixel), count); });
+        return pass;
+    }
+    // Calls body(row of the tile, its mark).
+    template <class Body>
+    static void for_rows(const temporal_arguments& a, const tile& t, Body body)
+    {
+        const int columns = (a.width + a.tile_width - 1) / a.tile_width;
+        for (int y = t.top; y < t.bottom; ++y) {
+            const auto mark =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(t.left / a.tile_width);
+            body(tile{ t.left, y, t.right, y + 1 }, a.filtered[mark]);
+        }
+    }
+    template <class Call>
+    static void filter(const temporal_arguments& a, const tile& t, Call call)
+    {
+        filter_pass pass = make_filter_pass(a);
+        const auto c = pixels::template constants<typename filter_pass::ao_temporal_filter_constants>(a);
+        for_rows(a, t, [&](const tile& row, std::uint8_t filtered) {
+            if (filtered != 0) {
+                pixels::for_blocks(row, [&](ivec2 pixel, int x, int y, int count) {
+                    pixels::store(a.target, x, y, call(pass, c, pixel), count);
+                });
+            }
+        });
     }
     AO_CPU_KERNEL static void filter_rows(const temporal_arguments& a, const tile& t)
     {
@@ -90,13 +119,20 @@ struct temporal_kernels {
     }
     AO_CPU_KERNEL static void resolve(const temporal_arguments& a, const tile& t)
     {
-        filter(a, t, [](auto& pass, const auto& c, ivec2 pixel) { return pass.ao_temporal_resolve_pass(c, pixel); });
+        filter_pass pass = make_filter_pass(a);
+        const auto c = pixels::template constants<typename filter_pass::ao_temporal_filter_constants>(a);
+        for_rows(a, t, [&](const tile& row, std::uint8_t& filtered) {
+            bool any = false;
+            pixels::for_blocks(row, [&](ivec2 pixel, int x, int y, int count) {
+                pixels::store(a.target, x, y, pass.ao_temporal_resolve_pass(c, pixel), count);
+                any = any || pass.ao_any(pass.ao_to_be_filtered(c, pass.ao_history_at(pixel, c.width)));
+            });
+            filtered = any ? 1 : 0;
+        });
     }
 
     static constexpr temporal_kernel_table table{
-        { { accumulate<false, false, false>, accumulate<false, false, true> },
-          { accumulate<true, false, false>, accumulate<true, false, true> },
-          { accumulate<true, true, false>, accumulate<true, true, true> } },
+        { accumulate_kernels<false, false>, accumulate_kernels<true, false>, accumulate_kernels<true, true> },
         filter_rows,
         filter_columns,
         resolve,

@@ -19,3 +19,6 @@ bool ao_inside(ivec2 pixel)
 {
     return all(lessThan(pixel, imageSize(ao_picture)));
 }
+
+#define AO_TILES_BINDING 0
+#include "ao/shared/temporal_tiles.glsl"

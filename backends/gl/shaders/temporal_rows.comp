@@ -4,7 +4,7 @@
 
 void main()
 {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID);
+    ivec2 pixel = ao_listed_pixel();
     if (ao_inside(pixel)) {
         imageStore(ao_picture, pixel, vec4(ao_temporal_rows_pass(ao_constants, pixel)));
     }

@@ -52,6 +52,7 @@
     X(Disable)                                                                                                                   \
     X(Disablei)                                                                                                                  \
     X(DispatchCompute)                                                                                                           \
+    X(DispatchComputeIndirect)                                                                                                   \
     X(DrawArrays)                                                                                                                \
     X(Enable)                                                                                                                    \
     X(EnableVertexArrayAttrib)                                                                                                   \

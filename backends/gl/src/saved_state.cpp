@@ -25,6 +25,7 @@ saved_state::saved_state(const functions& gl, const touched& what) : gl_(gl), wh
     storage_buffer_ = name(GL_SHADER_STORAGE_BUFFER_BINDING);
     save_buffers(GL_SHADER_STORAGE_BUFFER_BINDING, GL_SHADER_STORAGE_BUFFER_START, GL_SHADER_STORAGE_BUFFER_SIZE,
                  what.storage_buffers, storage_buffers_.data());
+    dispatch_buffer_ = what.dispatch ? name(GL_DISPATCH_INDIRECT_BUFFER_BINDING) : 0;
     for (GLuint unit = 0; unit < what.images; ++unit) {
         image_units_[unit] = save_image_unit(unit);
     }
@@ -119,6 +120,9 @@ saved_state::~saved_state()
     if (what_.storage_buffers != 0) {
         restore_buffers(GL_SHADER_STORAGE_BUFFER, what_.storage_buffers, storage_buffers_.data());
         gl_.BindBuffer(GL_SHADER_STORAGE_BUFFER, storage_buffer_);
+    }
+    if (what_.dispatch) {
+        gl_.BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, dispatch_buffer_);
     }
     for (GLuint i = 0; i < what_.images; ++i) {
         const image_unit& unit = image_units_[i];

@@ -24,6 +24,7 @@ struct touched {
     GLuint uniform_buffers = 0;
     GLuint storage_buffers = 0;
     GLuint images = 0;
+    bool dispatch = false;    // indirect ones
     GLuint color_targets = 0; // 0: nothing is drawn
     bool depth = false;       // draws meshes: depth, culling, clip control, indirect draws
 };
@@ -93,6 +94,7 @@ private:
     GLenum active_texture_;
     GLuint uniform_buffer_;
     GLuint storage_buffer_;
+    GLuint dispatch_buffer_;
     std::array<GLuint, most_textures> textures_;
     std::array<GLuint, most_textures> samplers_;
     std::array<GLuint, most_textures> buffer_textures_;

@@ -101,6 +101,9 @@ result<temporal_program> temporal::prepare_temporal(const temporal_plan& p)
     for (object& history : state->histories) {
         history = buffers.storage_of_size("a history", history_bytes(p), GL_DYNAMIC_STORAGE_BIT);
     }
+    const auto groups = [](int pixels, unsigned size) { return (static_cast<std::size_t>(pixels) + size - 1) / size; };
+    const std::size_t tiles = groups(f.width, options_.group_width) * groups(f.height, options_.group_height);
+    state->tiles = buffers.storage_of_size("the tiles to be filtered", 16 + 8 * tiles, GL_DYNAMIC_STORAGE_BIT);
     const auto taps = make_temporal_taps(p.settings);
     state->taps = buffers.storage("the sequence of samples", std::as_bytes(std::span(taps)), 0);
     if (buffers.failed()) {

@@ -46,10 +46,12 @@ void temporal::record_temporal(commands, temporal_program& program, temporal_bin
 
     std::optional<saved_state> before;
     if (options_.restore_state) {
-        before.emplace(
-            gl,
-            touched{
-                .textures = temporal_inputs, .buffer_textures = true, .uniform_buffers = 1, .storage_buffers = 1, .images = 1 });
+        before.emplace(gl, touched{ .textures = temporal_inputs,
+                                    .buffer_textures = true,
+                                    .uniform_buffers = 1,
+                                    .storage_buffers = 1,
+                                    .images = 1,
+                                    .dispatch = true });
     }
     const GLintptr offset = temporal_stride * static_cast<GLintptr>(which);
     gl.NamedBufferSubData(state.constants.name(), offset, static_cast<GLsizeiptr>(step.constants_size), step.constants.data());
@@ -69,13 +71,25 @@ void temporal::record_temporal(commands, temporal_program& program, temporal_bin
         const GLuint picture = !own                                         ? pictures.visibility
                                : step.type == temporal_pass_type::linearize ? state.linear.name()
                                                                             : state.rows.name();
+        gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, written_index, state.tiles.name());
         gl.BindImageTexture(0, picture, 0, GL_FALSE, 0, GL_WRITE_ONLY,
                             own ? GL_R32F : internal_format(p.facts.frame.output_format));
     }
     const auto groups = [](int pixels, unsigned size) { return (static_cast<GLuint>(pixels) + size - 1) / size; };
     // Stores wait for whoever still reads what they overwrite, and what reads next for the stores.
-    gl.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
-    gl.DispatchCompute(groups(p.facts.frame.width, options_.group_width), groups(p.facts.frame.height, options_.group_height), 1);
+    gl.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
+                     GL_BUFFER_UPDATE_BARRIER_BIT);
+    if (step.type == temporal_pass_type::resolve) {
+        gl.ClearNamedBufferData(state.tiles.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+    }
+    if (step.type == temporal_pass_type::filter_rows || step.type == temporal_pass_type::filter_columns) {
+        gl.BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, state.tiles.name());
+        gl.DispatchComputeIndirect(0);
+    }
+    else {
+        gl.DispatchCompute(groups(p.facts.frame.width, options_.group_width), groups(p.facts.frame.height, options_.group_height),
+                           1);
+    }
     const bool last = index + 1 == frame.steps.size();
     const GLbitfield handed_over = GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT |
                                    GL_TEXTURE_UPDATE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT;

@@ -14,7 +14,7 @@ namespace ao::gl {
 inline constexpr GLsizei temporal_inputs = 6;
 inline constexpr std::size_t row_unit = 1;
 inline constexpr std::size_t history_unit = 4;
-// Storage buffer binding.
+// Storage buffer binding: of the history that accumulate writes, and of the tiles.
 inline constexpr GLuint written_index = 0;
 // As constants_stride, for constants of up to 272 bytes.
 inline constexpr GLintptr temporal_stride = 512;
@@ -26,6 +26,7 @@ struct temporal_program_state {
     std::array<object, 2> history_textures;
     object linear; // eye depth, where the plan makes it
     object rows;   // where the plan filters
+    object tiles;  // ao/shared/temporal_tiles.glsl
     object rotations;
     object taps;
     object tap_texture;

@@ -25,9 +25,11 @@
     X(CmdCopyBuffer)                                                                                                             \
     X(CmdCopyBufferToImage)                                                                                                      \
     X(CmdDispatch)                                                                                                               \
+    X(CmdDispatchIndirect)                                                                                                       \
     X(CmdDrawIndexed)                                                                                                            \
     X(CmdDrawIndexedIndirect)                                                                                                    \
     X(CmdEndRenderPass)                                                                                                          \
+    X(CmdFillBuffer)                                                                                                             \
     X(CmdPipelineBarrier)                                                                                                        \
     X(CmdPushConstants)                                                                                                          \
     X(CmdUpdateBuffer)                                                                                                           \

@@ -159,6 +159,16 @@ std::optional<error> make_memory(const device& d, const temporal_plan& p, tempor
     }
     made.constants = std::move(*constants);
 
+    const auto groups = [](int pixels, std::uint32_t size) { return (static_cast<VkDeviceSize>(pixels) + size - 1) / size; };
+    const VkDeviceSize tiles = groups(p.facts.frame.width, d.host.group.x) * groups(p.facts.frame.height, d.host.group.y);
+    auto listed = make_buffer(
+        d, 16 + 8 * tiles,
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, 0);
+    if (!listed) {
+        return listed.error();
+    }
+    made.tiles = std::move(*listed);
+
     picture_shape shape;
     shape.format = VK_FORMAT_R32_SFLOAT;
     shape.width = static_cast<std::uint32_t>(p.facts.frame.width);

@@ -74,6 +74,7 @@ set_content content_of(const temporal_program_state& program, const temporal_ima
         c.pictures[rows_slot] = own(program.rows);
     }
     c.buffers[constants_slot] = whole(program.constants);
+    c.buffers[tiles_slot] = whole(program.tiles);
     c.texels[rotations_slot] = program.rotations.get();
     c.texels[taps_slot] = program.taps.get();
     const bool accumulates = type == temporal_pass_type::accumulate;

@@ -23,6 +23,7 @@ enum temporal_slot : std::uint32_t {
     taps_slot,
     history_slot,
     written_slot,
+    tiles_slot, // ao/shared/temporal_tiles.glsl
     temporal_slot_count
 };
 inline constexpr std::uint32_t temporal_inputs = rotations_slot; // sampled
@@ -50,6 +51,7 @@ struct temporal_program_state {
     std::array<owned<VkBufferView>, 2> history_texels; // a pixel each
     picture eye_depth;                                 // where the plan linearizes or depth is copied
     picture rows;                                      // where the plan filters
+    buffer tiles;                                      // to be filtered, and the dispatch over them
     owned<VkDescriptorSetLayout> set_layout;
     owned<VkPipelineLayout> layout;
     std::array<owned<VkPipeline>, 6> pipelines; // by step of the plan

@@ -104,21 +104,13 @@ AO_FN real ao_filter_weight(real squared_distance, real squared_support)
     return mix(mix(real(0), weight, any), real(1), own);
 }
 
-// Weight of texel i = -1 ... 2 at fraction f = 0 ... 1 between texels 0 and 1: Catmull and Rom, 1974. Its second moment is that
-// of the position itself, so that a history fetched again and again between pixels does not spread as one does by bilinear
+// Weights of texels -1, 0, 1 and 2 at fraction f = 0 ... 1 between texels 0 and 1: Catmull and Rom, 1974. Their second moment is
+// that of the position itself, so that a history fetched again and again between pixels does not spread as one does by bilinear
 // weights.
-AO_FN real ao_cubic_weight(int i, real f)
+AO_FN vec4 ao_cubic_weights(real f)
 {
-    AO_PRECISE real before = f * (real(-0.5) + f * (real(1) - real(0.5) * f));
-    AO_PRECISE real first = real(1) + f * f * (real(-2.5) + real(1.5) * f);
-    AO_PRECISE real second = f * (real(0.5) + f * (real(2) - real(1.5) * f));
-    AO_PRECISE real after = f * f * (real(-0.5) + real(0.5) * f);
-    return i < 0 ? before : i == 0 ? first : i == 1 ? second : after;
-}
-
-// Likewise of texels 0 and 1; 0 of the others.
-AO_FN real ao_linear_weight(int i, real f)
-{
-    AO_PRECISE real first = real(1) - f;
-    return i == 0 ? first : i == 1 ? f : real(0);
+    AO_PRECISE vec4 weights =
+        vec4(f * (real(-0.5) + f * (real(1) - real(0.5) * f)), real(1) + f * f * (real(-2.5) + real(1.5) * f),
+             f * (real(0.5) + f * (real(2) - real(1.5) * f)), f * f * (real(-0.5) + real(0.5) * f));
+    return weights;
 }

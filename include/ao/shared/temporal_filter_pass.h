@@ -16,6 +16,14 @@ struct ao_temporal_filter_constants {
     real reserved_2;
 };
 
+// Whether a pixel's value is to be filtered. What is not keeps its value in both passes: wherever no pixel of a tile is, neither
+// need run there, given that the value is there already.
+AO_FN mask ao_to_be_filtered(ao_temporal_filter_constants c, ao_history h)
+{
+    mask filtered = ao_filter_support(ao_convergence(h.weight, c.most_weight), c.c_spatial) > real(0) && h.depth > real(0);
+    return filtered;
+}
+
 AO_PASS vec3 ao_filter_position(ao_temporal_filter_constants c, ivec2 pixel, real d)
 {
     AO_PRECISE vec2 centre = vec2(real(pixel.x) + real(0.5), real(pixel.y) + real(0.5));
@@ -26,9 +34,9 @@ AO_PASS vec3 ao_filter_position(ao_temporal_filter_constants c, ivec2 pixel, rea
 AO_PASS real ao_temporal_filter(ao_temporal_filter_constants c, ivec2 pixel, bool rows)
 {
     ao_history h = ao_history_at(pixel, c.width);
-    real own = rows ? h.value : ao_load_row(pixel);
+    mask filtered = ao_to_be_filtered(c, h);
+    real own = rows ? h.value : mix(h.value, ao_load_row(pixel), filtered);
     real share = ao_filter_support(ao_convergence(h.weight, c.most_weight), c.c_spatial);
-    mask filtered = share > real(0) && h.depth > real(0);
     AO_PRECISE real support = share * c.support;
     AO_PRECISE real squared_support = support * support;
     real d = mix(real(1), ao_load_depth(pixel), h.depth > real(0));
@@ -48,7 +56,8 @@ AO_PASS real ao_temporal_filter(ao_temporal_filter_constants c, ivec2 pixel, boo
         AO_PRECISE vec3 offset = vec3(other.x - position.x, other.y - position.y, other.z - position.z);
         AO_PRECISE real near = ao_filter_weight(ao_dot(offset, offset), squared_support);
         AO_PRECISE real weight = mix(real(0), near * ao_convergence(there.weight, c.most_weight), used);
-        real value = rows ? there.value : ao_load_row(at);
+        // What was not filtered along its row may never have been written there.
+        real value = rows ? there.value : mix(there.value, ao_load_row(at), ao_to_be_filtered(c, there));
         AO_PRECISE real next_sum = sum + weight * value;
         AO_PRECISE real next_weights = weights + weight;
         sum = next_sum;
@@ -76,7 +85,7 @@ AO_PASS real ao_temporal_columns_pass(ao_temporal_filter_constants c, ivec2 pixe
     return ao_visibility_of(ao_temporal_filter(c, pixel, false));
 }
 
-// Where nothing is to be filtered.
+// Before the filter, or without one.
 AO_PASS real ao_temporal_resolve_pass(ao_temporal_filter_constants c, ivec2 pixel)
 {
     return ao_visibility_of(ao_history_at(pixel, c.width).value);

@@ -87,6 +87,56 @@ AO_PASS ao_previous ao_previous_of(ao_temporal_constants c, ivec2 texel, vec3 po
     return previous;
 }
 
+// A texel between which histories are interpolated: its value, and 1, or 0 and 0 where it shows another surface.
+struct ao_recalled_texel {
+    real value;
+    real usable;
+};
+
+AO_PASS ao_recalled_texel ao_recall_texel(real width, integer column, integer row, real nearest, real farthest)
+{
+    ao_history at = ao_history_at(ivec2(column, row), width);
+    mask usable = at.value >= real(0) && at.value <= real(1) && at.depth >= nearest && at.depth <= farthest;
+    ao_recalled_texel texel = { mix(real(0), at.value, usable), mix(real(0), real(1), usable) };
+    return texel;
+}
+
+// Sums over a row of such texels. Texels 0 and 1 by linear weights, and where ao_cubic all four by `cubic`.
+struct ao_recalled_row {
+    real linear;
+    real linear_weight;
+    real cubic;
+    real usable; // so many of the texels
+};
+
+// `columns`: texels -1 ... 2, clamped to the picture.
+AO_PASS ao_recalled_row ao_recall_row(real width, integer column_0, integer column_1, integer column_2, integer column_3,
+                                      integer row, real across, vec4 cubic, real nearest, real farthest)
+{
+    ao_recalled_texel b = ao_recall_texel(width, column_1, row, nearest, farthest);
+    ao_recalled_texel c = ao_recall_texel(width, column_2, row, nearest, farthest);
+    AO_PRECISE real before = real(1) - across;
+    AO_PRECISE real linear = before * b.value + across * c.value;
+    AO_PRECISE real linear_weight = before * b.usable + across * c.usable;
+    ao_recalled_row sums = { linear, linear_weight, real(0), real(0) };
+    if (ao_cubic) {
+        ao_recalled_texel a = ao_recall_texel(width, column_0, row, nearest, farthest);
+        ao_recalled_texel d = ao_recall_texel(width, column_3, row, nearest, farthest);
+        AO_PRECISE real sum = cubic.x * a.value + cubic.y * b.value + cubic.z * c.value + cubic.w * d.value;
+        AO_PRECISE real count = a.usable + b.usable + c.usable + d.usable;
+        ao_recalled_row all = { linear, linear_weight, sum, count };
+        sums = all;
+    }
+    return sums;
+}
+
+// The texel of a row or column of `size` that is nearest to x, a whole number.
+AO_FN integer ao_texel_within(real x, real size)
+{
+    AO_PRECISE real last = size - real(1);
+    return integer(min(max(x, real(0)), last));
+}
+
 // What the last frame knows of a surface point: weight 0 where that is nothing. `slope`: change of depth per pixel.
 AO_PASS ao_history ao_recalled_history(ao_temporal_constants c, vec2 centre, ao_previous previous, real slope)
 {
@@ -96,41 +146,44 @@ AO_PASS ao_history ao_recalled_history(ao_temporal_constants c, vec2 centre, ao_
     // Index, weight and depth come from the nearest pixel. It is half a pixel away at most along each axis, the cubic's texels
     // two.
     real near_tolerance = ao_depth_tolerance(expected, c.tolerance, c.tolerance_constant, c.bias_linear, c.bias_quadratic, slope);
-    AO_PRECISE real wide_slope = slope * real(4);
-    real wide_tolerance =
-        ao_depth_tolerance(expected, c.tolerance, c.tolerance_constant, c.bias_linear, c.bias_quadratic, wide_slope);
+    AO_PRECISE real wide_tolerance = near_tolerance + real(3) * slope;
     mask kept = previous.inside && ao_usable_history(c, h) && ao_same_surface(expected, h.depth, near_tolerance);
 
+    AO_PRECISE real nearest_depth = max(expected - wide_tolerance, real(1e-30));
+    AO_PRECISE real farthest_depth = expected + wide_tolerance;
     AO_PRECISE real left = floor(previous.pixel.x - real(0.5));
     AO_PRECISE real top = floor(previous.pixel.y - real(0.5));
     AO_PRECISE real across = previous.pixel.x - real(0.5) - left;
     AO_PRECISE real down = previous.pixel.y - real(0.5) - top;
-    real linear_sum = real(0);
-    real linear_weight = real(0);
-    real cubic_sum = real(0);
-    mask all_usable = ao_cubic;
-    int first = ao_cubic ? -1 : 0;
-    int last = ao_cubic ? 2 : 1;
-    for (int j = first; j <= last; ++j) {
-        for (int i = first; i <= last; ++i) {
-            real column = min(max(left + real(i), real(0)), c.width - real(1));
-            real row = min(max(top + real(j), real(0)), c.height - real(1));
-            ao_history at = ao_history_at(ivec2(integer(column), integer(row)), c.width);
-            mask usable = at.value >= real(0) && at.value <= real(1) && ao_same_surface(expected, at.depth, wide_tolerance);
-            real value = mix(real(0), at.value, usable);
-            AO_PRECISE real bilinear = ao_linear_weight(i, across) * ao_linear_weight(j, down);
-            AO_PRECISE real next_sum = linear_sum + mix(real(0), bilinear * value, usable);
-            AO_PRECISE real next_weight = linear_weight + mix(real(0), bilinear, usable);
-            AO_PRECISE real next_cubic = cubic_sum + ao_cubic_weight(i, across) * ao_cubic_weight(j, down) * value;
-            linear_sum = next_sum;
-            linear_weight = next_weight;
-            cubic_sum = next_cubic;
-            all_usable = all_usable && usable;
-        }
-    }
+    integer column_0 = ao_texel_within(left - real(1), c.width);
+    integer column_1 = ao_texel_within(left, c.width);
+    integer column_2 = ao_texel_within(left + real(1), c.width);
+    integer column_3 = ao_texel_within(left + real(2), c.width);
+    vec4 cubic_across = ao_cubic_weights(across);
+    ao_recalled_row second = ao_recall_row(c.width, column_0, column_1, column_2, column_3, ao_texel_within(top, c.height),
+                                           across, cubic_across, nearest_depth, farthest_depth);
+    ao_recalled_row third =
+        ao_recall_row(c.width, column_0, column_1, column_2, column_3, ao_texel_within(top + real(1), c.height), across,
+                      cubic_across, nearest_depth, farthest_depth);
+    AO_PRECISE real above = real(1) - down;
+    AO_PRECISE real linear = above * second.linear + down * third.linear;
+    AO_PRECISE real linear_weight = above * second.linear_weight + down * third.linear_weight;
     mask any = linear_weight > real(0);
-    AO_PRECISE real bilinear_mean = linear_sum / mix(real(1), linear_weight, any);
-    real value = mix(mix(h.value, bilinear_mean, any), cubic_sum, all_usable);
+    AO_PRECISE real linear_mean = linear / mix(real(1), linear_weight, any);
+    real value = mix(h.value, linear_mean, any);
+    if (ao_cubic) {
+        ao_recalled_row first =
+            ao_recall_row(c.width, column_0, column_1, column_2, column_3, ao_texel_within(top - real(1), c.height), across,
+                          cubic_across, nearest_depth, farthest_depth);
+        ao_recalled_row fourth =
+            ao_recall_row(c.width, column_0, column_1, column_2, column_3, ao_texel_within(top + real(2), c.height), across,
+                          cubic_across, nearest_depth, farthest_depth);
+        vec4 cubic_down = ao_cubic_weights(down);
+        AO_PRECISE real sum =
+            cubic_down.x * first.cubic + cubic_down.y * second.cubic + cubic_down.z * third.cubic + cubic_down.w * fourth.cubic;
+        AO_PRECISE real usable = first.usable + second.usable + third.usable + fourth.usable;
+        value = mix(value, sum, usable == real(16));
+    }
     AO_PRECISE real moved = abs(previous.pixel.x - centre.x) + abs(previous.pixel.y - centre.y);
     real most = mix(c.most_weight, min(c.most_weight, c.moving_weight), moved > real(0.015625));
     ao_history recalled = { mix(real(0), min(max(value, real(0)), real(1)), kept), mix(real(0), min(h.weight, most), kept),
@@ -284,7 +337,7 @@ AO_PASS ao_history ao_accumulate_pass(ao_temporal_constants c, ivec2 pixel)
         ao_make_tap_space(c.projection, vec2(c.width, c.height), position, ao_sampling_frame(normal, helper), d, c.radius);
 
     real sum = real(0);
-    real confidence = real(1);
+    real change = real(0); // the greatest
     int i = 0;
     do { // the condition last: llvmpipe runs a body to its end even where no pixel is left
         mask taken = real(i) < wanted;
@@ -293,12 +346,13 @@ AO_PASS ao_history ao_accumulate_pass(ao_temporal_constants c, ivec2 pixel)
         AO_PRECISE real next = sum + mix(real(0), ao_contribution_of(c, seen, position, normal, bias), taken);
         sum = next;
         if (ao_reproject && ao_invalidation != ao_keep_weight) {
-            real change = ao_neighbour_change(c, seen, position, normal, begun.previous.position, normal_was, bias, begun.slope);
-            confidence = mix(confidence, min(confidence, ao_confidence(change, c.steepness)), taken);
+            real found = ao_neighbour_change(c, seen, position, normal, begun.previous.position, normal_was, bias, begun.slope);
+            change = max(change, mix(real(0), found, taken));
         }
         ++i;
     } while (i < ao_most_samples && ao_any(real(i) < wanted));
     real weight = h.weight;
+    real confidence = ao_confidence(change, c.steepness); // the least over the samples
     if (ao_reproject && ao_invalidation == ao_smooth_weight) {
         weight = ao_kept_weight(weight, confidence);
     }
