@@ -28,7 +28,7 @@ std::string page(const std::vector<outcome>& all, const std::vector<subject>& su
         "# Where methods fail, measured\n\n"
         "Written by `./run stability` (`tests/stability`); every row of the catalogue is here, none is left out.\n"
         "A figure is held against its bound on every backend. The same measurement of a subject with a fault in it, or of\n"
-        "a published method that must fail, stands beside it and must not hold: `caught`. `core`: measured once, for what is no\n"
+        "a published method that must fail, stands beside it and must not hold. `core`: measured once, for what is no\n"
         "backend's. Figures are rounded to three digits; `endless` is infinite, or what is not a number.\n\n";
     std::size_t held = 0;
     for (const outcome& o : all) {
