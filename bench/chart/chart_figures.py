@@ -81,8 +81,12 @@ def scatter(fig, axes, points, chart, marker=None, y="y"):
 
 
 def label_front(axes, points, y="y"):
-    for p in data.front(points, y):
-        axes.annotate(p["name"], (p["x"], p[y]), textcoords="offset points", xytext=(5, 5), fontsize=6, color="#333333")
+    kept = data.front(points, y)
+    for i, p in enumerate(kept):
+        right = 3 * i >= 2 * len(kept)  # there is no room to their right
+        text = axes.annotate(p["name"], (p["x"], p[y]), textcoords="offset points", xytext=(-3 if right else 3, 5), fontsize=6,
+                             color="#333333", rotation=-32 if right else 32, ha="right" if right else "left")
+        text.set_in_layout(False)
 
 
 def method_legend(fig, points, extra=()):
