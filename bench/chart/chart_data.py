@@ -13,6 +13,7 @@ COLORS = {
 }
 SPARE = ["#7f4f24", "#6a3d9a", "#b2df8a"]
 MARKERS = {"cpu": "o", "gl compute": "s", "gl fragment": "D", "gl": "s", "vk": "^"}
+CLOCKS = {"wall": "ms", "processor": "processor ms"}
 FETCH = 10  # operations that a fetch costs on software drivers (docs/numerics.md)
 
 
@@ -67,6 +68,7 @@ def single_point(configuration, time, clock):
         "cost": configuration["cost"],
         "flicker": configuration["flicker"],
         "hollow": False,
+        "clock": CLOCKS[clock],
     }
     if time is None:
         point["route"] = None
@@ -106,6 +108,7 @@ def temporal_points(chart, route, clock):
                 "cost": cost,
                 "flicker": mean(m["flicker"] for m in seen),
                 "hollow": motion == "pan",
+                "clock": CLOCKS[clock],
             }
             if route is None:
                 point["route"] = None
@@ -171,7 +174,7 @@ def described(point, chart):
     error = point["error"]
     lines = [point["name"] + (f" on {point['route']}" if point["route"] else "")]
     if point["route"]:
-        lines.append(f"{point['x']:.1f} ms per megapixel ({point['x_low']:.1f} to {point['x_high']:.1f})")
+        lines.append(f"{point['x']:.1f} {point['clock']} per megapixel ({point['x_low']:.1f} to {point['x_high']:.1f})")
     lines.append(f"RMSE {error['rmse']:.4f}, bias {error['bias']:+.4f}, p99 {error['p99']:.3f}")
     if "systematic" in error:
         lines.append(f"systematic {error['systematic']:.4f}, deviation {error['deviation']:.4f}, sampling {error['sampling']:.4f}")

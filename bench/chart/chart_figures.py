@@ -22,7 +22,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 import chart_data as data
 
 GREY = "#9a9a9a"
-CLOCKS = {"wall": "ms per megapixel", "processor": "processor ms per megapixel"}
+CLOCKS = {clock: unit + " per megapixel" for clock, unit in data.CLOCKS.items()}
 
 
 def plain_number(x, _):
