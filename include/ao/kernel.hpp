@@ -5,6 +5,7 @@
 #include "ao/detail/elementary.hpp"
 #include "ao/math.hpp"
 #include "ao/settings.hpp"
+#include "ao/slices.hpp"
 
 #include <array>
 #include <cstddef>
@@ -75,7 +76,7 @@ constexpr std::array<float, max_taps> stratified(random_stream& random, int coun
     return numbers;
 }
 
-// The `taps` offsets of a kernel, w = 0. Unused entries are zero.
+// The `taps` offsets of a kernel, w = 0. Unused entries are zero. Not for bitmask.
 constexpr std::array<glm::vec4, max_taps> make_kernel(method chosen, int taps, std::uint32_t seed)
 {
     std::array<glm::vec4, max_taps> offsets{};
@@ -114,6 +115,16 @@ constexpr std::array<glm::vec2, tile_size * tile_size> make_rotation_tile(std::u
         helper = { x, 2.0F * random.uniform() - 1.0F };
     }
     return tile;
+}
+
+// The table of taps and the tile that the passes of these settings read.
+constexpr std::array<glm::vec4, max_taps> make_taps(const settings& s)
+{
+    return s.method == method::bitmask ? make_slice_taps(s.taps, s.slices) : make_kernel(s.method, s.taps, s.seed);
+}
+constexpr std::array<glm::vec2, tile_size * tile_size> make_tile(const settings& s)
+{
+    return s.method == method::bitmask ? make_slice_tile(s.seed) : make_rotation_tile(s.seed);
 }
 
 } // namespace ao

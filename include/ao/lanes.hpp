@@ -118,6 +118,11 @@ struct lanes {
     friend constexpr lanes operator*(lanes a, lanes b) { return lanes(a.v * b.v); }
     friend constexpr lanes operator/(lanes a, lanes b) { return lanes(a.v / b.v); }
     friend constexpr lanes operator&(lanes a, lanes b) requires std::is_integral_v<T> { return lanes(a.v & b.v); }
+    friend constexpr lanes operator|(lanes a, lanes b) requires std::is_integral_v<T> { return lanes(a.v | b.v); }
+    friend constexpr lanes operator~(lanes a) requires std::is_integral_v<T> { return lanes(~a.v); }
+    // Precondition of both: by 0 to 31 bits.
+    friend constexpr lanes operator<<(lanes a, lanes b) requires std::is_unsigned_v<T> { return lanes(a.v << b.v); }
+    friend constexpr lanes operator>>(lanes a, int b) requires std::is_unsigned_v<T> { return lanes(a.v >> b); }
     friend constexpr lanes operator-(lanes a) { return lanes(-a.v); }
     constexpr lanes& operator+=(lanes b) { return *this = *this + b; }
     constexpr lanes& operator-=(lanes b) { return *this = *this - b; }

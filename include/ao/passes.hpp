@@ -60,8 +60,76 @@ struct occlusion_pass {
     }
 
 #include "ao/shared/normal_pass.h"
+#include "ao/shared/occlusion_constants.h"
 #include "ao/shared/occlusion_pass.h"
 #include "ao/shared/occlusion_tap.h"
+};
+
+// Resources: real depth(ivec2), vec4 normal(ivec2), vec2 rotation(ivec2), vec4 tap(int).
+template <class Real, class Resources>
+struct bitmask_pass {
+#include "ao/detail/scope.inc"
+#include "ao/shared/functions.h"
+
+    Resources resources;
+    int ao_tap_count = 0;
+    int ao_slice_count = 1;
+    int ao_normal_source = 0;
+    bool ao_rotate_normals = false;
+    bool ao_parallel = false;
+    bool ao_mark_background = false;
+
+    constexpr real ao_load_depth(ivec2 pixel)
+    {
+        return resources.depth(pixel);
+    }
+    constexpr vec4 ao_load_normal(ivec2 pixel)
+    {
+        return resources.normal(pixel);
+    }
+    constexpr vec2 ao_load_rotation(ivec2 pixel)
+    {
+        return resources.rotation(pixel);
+    }
+    constexpr vec4 ao_tap(int i)
+    {
+        return resources.tap(i);
+    }
+
+#include "ao/shared/normal_pass.h"
+#include "ao/shared/occlusion_constants.h"
+
+#include "ao/shared/bitmask_pass.h"
+};
+
+// Resources: vec2 packed(ivec2), vec4 normal(ivec2).
+template <class Real, class Resources>
+struct denoise_pass {
+#include "ao/detail/scope.inc"
+#include "ao/shared/functions.h"
+
+    Resources resources;
+    int ao_filter_radius = 0;
+    int ao_normal_source = 0;
+    bool ao_rotate_normals = false;
+    bool ao_parallel = false;
+
+    constexpr vec2 ao_load_packed(ivec2 pixel)
+    {
+        return resources.packed(pixel);
+    }
+    constexpr real ao_load_depth(ivec2 pixel)
+    {
+        return resources.packed(pixel).y;
+    }
+    constexpr vec4 ao_load_normal(ivec2 pixel)
+    {
+        return resources.normal(pixel);
+    }
+
+#include "ao/shared/normal_pass.h"
+
+#include "ao/shared/denoise_pass.h"
 };
 
 // Resources: real visibility(ivec2), vec2 row_sum(ivec2); each of the two passes needs one of them.

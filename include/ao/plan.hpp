@@ -54,7 +54,7 @@ struct camera {
     float background = max_eye_depth; // eye depths from here on are background
 };
 
-enum class pass_type { linearize, occlusion, filter_rows, filter_columns };
+enum class pass_type { linearize, occlusion, filter_rows, filter_columns, bitmask, denoise_rows, denoise_columns };
 
 // Pictures a pass reads or writes. The first three belong to the host, `rotation` is a table, the rest are the program's own.
 enum class image_id { depth, normal, visibility, rotation, linear_depth, raw_visibility, row_sums, none };
@@ -69,6 +69,7 @@ struct pass_options {
     bool limit_thickness = false;
     bool mark_background = false;
     int filter_radius = 0;
+    int slice_count = 1;
 
     friend constexpr bool operator==(const pass_options&, const pass_options&) = default;
 };
@@ -95,7 +96,8 @@ private:
 struct pass {
     pass_type type{};
     pass_options options;
-    // linearize: depth. occlusion: eye depth, normal (or none), rotation. filter_rows: visibility. filter_columns: row sums.
+    // linearize: depth. occlusion, bitmask: eye depth, normal (or none), rotation. filter_rows: visibility. filter_columns: row
+    // sums. denoise_rows, denoise_columns: packed visibility and eye depth (packed_visibility.h), normal (or none).
     std::array<image_id, 3> inputs{ image_id::none, image_id::none, image_id::none };
     image_id output = image_id::none;
     // The shared constants struct of the pass, as bytes.
@@ -118,6 +120,7 @@ struct plan {
 
 using linearize_constants = math<float>::ao_depth_decode;
 using occlusion_constants = occlusion_pass<float, no_resources>::ao_occlusion_constants;
+using denoise_constants = denoise_pass<float, no_resources>::ao_denoise_constants;
 using filter_constants = filter_pass<float, no_resources>::ao_filter_constants;
 
 // The constants of a pass (or a temporal step) as the struct that its body takes. Precondition: Constants is the one of its type.
@@ -217,6 +220,12 @@ constexpr depth_error storage_error(const facts& f, const projection_constants& 
     return e;
 }
 
+// Row by row, padded as ao_rotation is.
+constexpr std::array<float, 12> rows_of(const matrix3& m)
+{
+    return { m[0][0], m[1][0], m[2][0], 0, m[0][1], m[1][1], m[2][1], 0, m[0][2], m[1][2], m[2][2], 0 };
+}
+
 } // namespace detail
 
 // Rewrites the constants for this frame's camera; nothing is allocated and the structure stays.
@@ -241,12 +250,11 @@ constexpr std::optional<error> update(plan& p, const camera& view)
             detail::set_constants(each, detail::make_linearize_constants(f, *folded));
             break;
         }
-        case pass_type::occlusion: {
+        case pass_type::occlusion:
+        case pass_type::bitmask: {
             occlusion_constants c{};
             c.projection = std::bit_cast<decltype(c.projection)>(folded->projection);
-            const matrix3& turn = view.normal_to_view;
-            c.normal_to_view = { turn[0][0], turn[1][0], turn[2][0], 0,          turn[0][1], turn[1][1],
-                                 turn[2][1], 0,          turn[0][2], turn[1][2], turn[2][2], 0 };
+            c.normal_to_view = std::bit_cast<decltype(c.normal_to_view)>(detail::rows_of(view.normal_to_view));
             const detail::depth_error e = detail::storage_error(f, *folded);
             c.radius = p.settings.radius;
             c.bias = p.settings.bias + e.constant;
@@ -256,6 +264,19 @@ constexpr std::optional<error> update(plan& p, const camera& view)
             c.background = background;
             c.width = static_cast<float>(f.width);
             c.height = static_cast<float>(f.height);
+            detail::set_constants(each, c);
+            break;
+        }
+        case pass_type::denoise_rows:
+        case pass_type::denoise_columns: {
+            denoise_constants c{};
+            c.projection = std::bit_cast<decltype(c.projection)>(folded->projection);
+            c.normal_to_view = std::bit_cast<decltype(c.normal_to_view)>(detail::rows_of(view.normal_to_view));
+            c.width = static_cast<float>(f.width);
+            c.height = static_cast<float>(f.height);
+            // A neighbour counts up to a twenty-fifth of the radius or a five-hundredth of the depth from the tangent plane.
+            c.plane_constant = 1.6e-3F * p.settings.radius * p.settings.radius;
+            c.plane_depth = 4e-6F;
             detail::set_constants(each, c);
             break;
         }
@@ -295,31 +316,37 @@ constexpr result<plan> make_plan(const settings& s, const facts& f, const camera
     }
 
     const bool filtered = s.filter > 1;
+    const bool sliced = s.method == method::bitmask;
     pass occlusion;
-    occlusion.type = pass_type::occlusion;
+    occlusion.type = sliced ? pass_type::bitmask : pass_type::occlusion;
     occlusion.options.tap_count = s.taps;
+    occlusion.options.slice_count = sliced ? s.slices : 1;
     occlusion.options.normal_source = static_cast<int>(f.normals);
     occlusion.options.rotate_normals = f.world_normals && f.normals != normal_source::from_depth;
     occlusion.options.parallel = f.parallel;
-    occlusion.options.limit_thickness = s.thickness <= std::numeric_limits<float>::max();
+    occlusion.options.limit_thickness = !sliced && s.thickness <= std::numeric_limits<float>::max();
     occlusion.options.mark_background = filtered;
     occlusion.inputs = { depth, f.normals == normal_source::from_depth ? image_id::none : image_id::normal, image_id::rotation };
     occlusion.output = filtered ? image_id::raw_visibility : image_id::visibility;
     p.passes.push_back(occlusion);
 
     if (filtered) {
-        p.transients.push_back({ image_id::raw_visibility, pixel_format::r32f });
+        p.transients.push_back({ image_id::raw_visibility, sliced ? pixel_format::rg32f : pixel_format::r32f });
         p.transients.push_back({ image_id::row_sums, pixel_format::rg32f });
         pass rows;
-        rows.type = pass_type::filter_rows;
+        rows.type = sliced ? pass_type::denoise_rows : pass_type::filter_rows;
         rows.options.filter_radius = s.filter / 2;
-        rows.inputs = { image_id::raw_visibility, image_id::none, image_id::none };
+        if (sliced) {
+            rows.options.normal_source = occlusion.options.normal_source;
+            rows.options.rotate_normals = occlusion.options.rotate_normals;
+            rows.options.parallel = f.parallel;
+        }
+        rows.inputs = { image_id::raw_visibility, sliced ? occlusion.inputs[1] : image_id::none, image_id::none };
         rows.output = image_id::row_sums;
         p.passes.push_back(rows);
-        pass columns;
-        columns.type = pass_type::filter_columns;
-        columns.options.filter_radius = s.filter / 2;
-        columns.inputs = { image_id::row_sums, image_id::none, image_id::none };
+        pass columns = rows;
+        columns.type = sliced ? pass_type::denoise_columns : pass_type::filter_columns;
+        columns.inputs[0] = image_id::row_sums;
         columns.output = image_id::visibility;
         p.passes.push_back(columns);
     }

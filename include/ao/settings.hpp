@@ -13,18 +13,24 @@ enum class method {
     box,        // paper 1 as printed: uniform in the half box, 48 % of it outside the ball
     hemisphere, // uniform in the half ball
     halton,     // half ball, cosine-weighted directions, uniform in distance; Halton bases 2, 3, 5
+    bitmask,    // slices of the hemisphere, the sectors that columns of finite thickness block; cosine-weighted
 };
 
 inline constexpr int max_taps = 1024;
+inline constexpr int max_slices = 16;
 inline constexpr int max_filter = 31;
 
 struct settings {
     ao::method method = ao::method::hemisphere;
-    int taps = 32;       // 1 ... max_taps; cost is linear in it
+    // 1 ... max_taps; cost is linear in it. Of bitmask: of all slices and both their sides, a multiple of 2 slices.
+    int taps = 32;
+    int slices = 1;      // of bitmask, 1 ... max_slices; one with many steps serves better than many with few
     float radius = 1.0F; // scene units, (0, 1e15]
-    float bias = 0.02F;  // least depth difference that occludes, scene units, [0, 1e15]; raise it against acne
+    // Least depth difference that occludes, of bitmask least height over the tangent plane; scene units, [0, 1e15]. Raise it
+    // against acne; bitmask needs none where normals and depths fit.
+    float bias = 0.02F;
     // How far behind a surface an offset still counts as occluded, in radii, > 0. Infinite as printed in paper 1; the finite
-    // default keeps a foreground object from darkening what lies far behind it.
+    // default keeps a foreground object from darkening what lies far behind it. Of bitmask: of whatever a depth shows, best at 1.
     float thickness = 2.0F;
     int filter = 5;         // pixels a side, odd, 1 (no filter) ... max_filter
     std::uint32_t seed = 1; // of the random kernels and the rotations
@@ -34,11 +40,17 @@ struct settings {
 constexpr std::optional<error> validate(const settings& s)
 {
     constexpr float limit = 1e15F;
-    if (s.method != method::box && s.method != method::hemisphere && s.method != method::halton) {
+    if (s.method != method::box && s.method != method::hemisphere && s.method != method::halton && s.method != method::bitmask) {
         return error(errc::invalid_settings, "unknown method");
     }
     if (s.taps < 1 || s.taps > max_taps) {
         return error(errc::invalid_settings, "taps must be 1 to 1024");
+    }
+    if (s.slices < 1 || s.slices > max_slices) {
+        return error(errc::invalid_settings, "slices must be 1 to 16");
+    }
+    if (s.method == method::bitmask && s.taps % (2 * s.slices) != 0) {
+        return error(errc::invalid_settings, "taps must be a multiple of two per slice");
     }
     if (!(s.radius > 0 && s.radius <= limit)) {
         return error(errc::invalid_settings, "radius must be greater than 0 and at most 1e15");
@@ -53,6 +65,26 @@ constexpr std::optional<error> validate(const settings& s)
         return error(errc::invalid_settings, "filter must be odd, 1 to 31");
     }
     return std::nullopt;
+}
+
+enum class preset {
+    low,    // 4 taps
+    medium, // 8
+    high,   // 18
+    ultra,  // 36
+};
+
+// The settings to take where there is no reason for others: bitmask, one slice a pixel, denoised over 5x5 pixels.
+constexpr settings settings_of(preset chosen, float radius = 1.0F)
+{
+    constexpr int taps[] = { 4, 8, 18, 36 };
+    settings s;
+    s.method = method::bitmask;
+    s.taps = taps[static_cast<int>(chosen)];
+    s.radius = radius;
+    s.bias = 0;
+    s.thickness = 1;
+    return s;
 }
 
 // The same settings; does not compile where they are not valid.

@@ -64,6 +64,7 @@ struct resources {
     glm::vec4 tap(int i) const { return tables->kernel[static_cast<std::size_t>(i)]; }
     float visibility(glm::ivec2 p) const { return fetch(0, p).x; }
     glm::vec2 row_sum(glm::ivec2 p) const { return glm::vec2(fetch(0, p)); }
+    glm::vec2 packed(glm::ivec2 p) const { return glm::vec2(fetch(0, p)); }
 };
 
 class backend {
@@ -76,10 +77,10 @@ public:
 
     ao::result<program> prepare(const ao::plan& p)
     {
-        program made{ ao::make_kernel(p.settings.method, p.settings.taps, p.settings.seed), {} };
+        program made{ ao::make_taps(p.settings), {} };
         plain::image& tile = made.pictures[static_cast<std::size_t>(ao::image_id::rotation)];
         tile = { ao::tile_size, ao::tile_size, {} };
-        for (const glm::vec2 helper : ao::make_rotation_tile(p.settings.seed)) {
+        for (const glm::vec2 helper : ao::make_tile(p.settings)) {
             tile.texels.emplace_back(helper, 0.0F, 0.0F);
         }
         for (const ao::transient_image& each : p.transients) {
@@ -139,6 +140,30 @@ private:
             auto c = ao::constants_of<ao::occlusion_constants>(each);
             c.bias = planted == fault::bias_ignored ? 0.0F : c.bias;
             return { body.ao_occlusion_pass(std::bit_cast<decltype(body)::ao_occlusion_constants>(c), pixel), 0, 0, 0 };
+        }
+        if (each.type == ao::pass_type::bitmask) {
+            const int taps = planted == fault::last_tap_lost ? o.tap_count - 2 : o.tap_count;
+            ao::bitmask_pass<float, resources> body{
+                read, taps, o.slice_count, o.normal_source, o.rotate_normals, o.parallel, o.mark_background
+            };
+            auto c = ao::constants_of<ao::occlusion_constants>(each);
+            c.bias = planted == fault::bias_ignored ? 0.0F : c.bias;
+            c.thickness = planted == fault::thickness_ignored ? 1e30F : c.thickness;
+            const auto constants = std::bit_cast<decltype(body)::ao_occlusion_constants>(c);
+            if (o.mark_background) {
+                return { body.ao_bitmask_packed_pass(constants, pixel), 0, 0 };
+            }
+            return { body.ao_bitmask_pass(constants, pixel).visibility, 0, 0, 0 };
+        }
+        if (each.type == ao::pass_type::denoise_rows || each.type == ao::pass_type::denoise_columns) {
+            ao::denoise_pass<float, resources> body{ read, o.filter_radius, o.normal_source, o.rotate_normals, o.parallel };
+            auto c = ao::constants_of<ao::denoise_constants>(each);
+            c.width -= planted == fault::border_short ? 1.0F : 0.0F;
+            const auto constants = std::bit_cast<decltype(body)::ao_denoise_constants>(c);
+            if (each.type == ao::pass_type::denoise_rows) {
+                return { body.ao_denoise_rows_pass(constants, pixel), 0, 0 };
+            }
+            return { body.ao_denoise_columns_pass(constants, pixel), 0, 0, 0 };
         }
         ao::filter_pass<float, resources> body{ read, o.filter_radius };
         auto c = ao::constants_of<ao::filter_constants>(each);

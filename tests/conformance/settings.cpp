@@ -58,6 +58,7 @@ struct change {
 const std::vector<change> changes{
     { "kernel box", [](frame_input& in) { in.settings.method = method::box; } },
     { "kernel halton", [](frame_input& in) { in.settings.method = method::halton; } },
+    { "bitmask", [](frame_input& in) { in.settings.method = method::bitmask; } },
     { "taps", [](frame_input& in) { in.settings.taps = 33; } },
     { "radius", [](frame_input& in) { in.settings.radius = 0.85F; } },
     { "bias", [](frame_input& in) { in.settings.bias = 0.03F; } },

@@ -1,7 +1,7 @@
 #include <ao/settings.hpp>
 
 #ifdef AO_MISUSE
-ao::settings chosen = ao::checked({ .method = static_cast<ao::method>(3) });
+ao::settings chosen = ao::checked({ .method = static_cast<ao::method>(4) });
 #else
 ao::settings chosen = ao::checked({ .method = ao::method::halton });
 #endif

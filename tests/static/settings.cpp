@@ -30,7 +30,23 @@ static_assert(accepted({}));
 static_assert(ao::checked({}).taps == 32);
 static_assert(ao::checked(with([](auto& s) { s.radius = 2.5F; })).radius == 2.5F);
 
-static_assert(refused(with([](auto& s) { s.method = static_cast<ao::method>(3); }), "method"));
+static_assert(refused(with([](auto& s) { s.method = static_cast<ao::method>(4); }), "method"));
+static_assert(refused(with([](auto& s) { s.slices = 0; }), "slices"));
+static_assert(refused(with([](auto& s) { s.slices = ao::max_slices + 1; }), "slices"));
+constexpr auto sliced = with([](auto& s) {
+    s.method = ao::method::bitmask;
+    s.taps = 12;
+    s.slices = 3;
+});
+static_assert(!ao::validate(sliced));
+static_assert(refused(with([](auto& s) {
+                          s.method = ao::method::bitmask;
+                          s.taps = 10;
+                          s.slices = 3;
+                      }),
+                      "taps"));
+static_assert(!ao::validate(ao::settings_of(ao::preset::low)) && !ao::validate(ao::settings_of(ao::preset::ultra, 3.0F)));
+static_assert(ao::settings_of(ao::preset::high).taps == 18 && ao::settings_of(ao::preset::high, 3.0F).radius == 3.0F);
 static_assert(refused(with([](auto& s) { s.taps = 0; }), "taps"));
 static_assert(refused(with([](auto& s) { s.taps = -1; }), "taps"));
 static_assert(refused(with([](auto& s) { s.taps = 1000000; }), "taps"));

@@ -7,6 +7,7 @@
 #include "scene/metrics.hpp"
 #include "scene/truth.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <limits>
 
@@ -81,5 +82,50 @@ TEST_CASE("all backends agree on every view of the levels, and their errors are 
         const ao::tools::ray_tree tree(s);
         for (const level_view& view : l.views)
             sweep_view(runners, s, tree, view);
+    }
+}
+
+TEST_CASE("all backends agree on the presets of bitmask on every view, and their errors are as promised")
+{
+    const runner_set runners;
+    struct promise {
+        const char* name;
+        ao::preset preset;
+        double rmse; // mean of the seven views, issue 6
+        double sum = 0;
+        double worst = 0;
+    };
+    promise promises[] = { { "low", ao::preset::low, 0.088 },
+                           { "medium", ao::preset::medium, 0.068 },
+                           { "high", ao::preset::high, 0.058 },
+                           { "ultra", ao::preset::ultra, 0.053 } };
+    int views = 0;
+    for (const level& l : levels()) {
+        const ao::tools::scene s = ao::tools::load_model(l.model.string());
+        const ao::tools::ray_tree tree(s);
+        for (const level_view& view : l.views) {
+            INFO(view.name);
+            ++views;
+            const level_inputs in = inputs_of(s, tree, view, width, height);
+            const auto truth = ao::tools::trace_truth(s, tree, view.camera, in.surfaces, { view.radius, truth_rays, 1 });
+            REQUIRE(truth);
+            std::printf("%-8s bitmask   ", view.name.c_str());
+            for (promise& p : promises) {
+                const std::vector<float> picture = agreed_picture(runners.fast, ao::settings_of(p.preset, view.radius), in);
+                const auto e = ao::tools::error_against(picture, truth->a, truth->b, in.surfaces.hit);
+                p.sum += e.rmse;
+                p.worst = std::max(p.worst, e.rmse);
+                std::printf(" %s %.4f %+.4f", p.name, e.rmse, e.bias);
+            }
+            std::printf("\n");
+            std::fflush(stdout);
+        }
+    }
+    if (views == 0)
+        return; // levels() has said so
+    for (const promise& p : promises) {
+        INFO(p.name);
+        std::printf("bitmask %s: mean %.4f, worst %.4f\n", p.name, p.sum / views, p.worst);
+        CHECK(p.sum / views <= p.rmse);
     }
 }

@@ -31,6 +31,7 @@ std::vector<family> families()
         { "box", of(method::box), {} },
         { "hemisphere", of(method::hemisphere), {} },
         { "halton", of(method::halton), {} },
+        { "bitmask", settings_of(preset::high), { { "low", 4 }, { "medium", 8 }, { "high", 18 }, { "ultra", 36 } } },
     };
 }
 
@@ -110,7 +111,8 @@ std::vector<chart_configuration> single_configurations(const chart_options& o)
         if (!wanted(o, f.name))
             continue;
         for (const int taps : o.taps)
-            all.push_back(make(f, taps, usual_filter, "taps"));
+            if (f.base.method != method::bitmask || taps % 2 == 0) // both sides of a slice
+                all.push_back(make(f, taps, usual_filter, "taps"));
         for (const auto& [name, taps] : f.presets) {
             chart_configuration c = make(f, taps, usual_filter, "taps");
             c.name = c.method + " " + name + ", " + std::to_string(taps) + " taps";
@@ -166,6 +168,8 @@ std::vector<temporal_configuration> temporal_configurations(const chart_options&
 ao::settings limit_of(ao::settings s)
 {
     s.taps = max_taps;
+    // Steps of a quarter of a pixel and less serve nothing: many slices.
+    s.slices = s.method == method::bitmask ? max_slices : 1;
     s.filter = 1;
     s.seed += 1000;
     return s;

@@ -182,7 +182,7 @@ json views_json(const std::vector<view_facts>& views)
     return all;
 }
 
-json temporal_json(const temporal_result& r, const chart_results& all)
+json temporal_json(const chart_temporal& r, const chart_results& all)
 {
     const ao::temporal_settings& s = r.configuration.settings;
     json j = { { "name", r.configuration.name },
@@ -277,7 +277,7 @@ std::string json_of(const chart_results& r)
         j["single"].push_back(single_json(each, r));
     j["temporal_routes"] = routes_json(r.temporal_routes);
     j["temporal"] = json::array();
-    for (const temporal_result& each : r.temporal)
+    for (const chart_temporal& each : r.temporal)
         j["temporal"].push_back(temporal_json(each, r));
     j["vertices"] = r.vertices ? vertices_json(*r.vertices) : json(nullptr);
     // File names need not be UTF-8.
@@ -305,7 +305,7 @@ std::string table_of(const chart_results& r)
     }
     for (const char* motion : { "static", "pan", "orbit" }) {
         std::string rows;
-        for (const temporal_result& each : r.temporal) {
+        for (const chart_temporal& each : r.temporal) {
             std::vector<double> rmse, bias, flicker;
             for (const motion_error& e : each.errors)
                 if (e.motion == motion) {

@@ -165,7 +165,7 @@ contestant make_contestant(chart_results& r, const std::string& backend, std::si
     const auto route = static_cast<std::size_t>(known - r.temporal_routes.begin());
     if (known == r.temporal_routes.end())
         r.temporal_routes.push_back({ backend, c.runner->device(), std::string(c.runner->route()) });
-    temporal_result& result = r.temporal[configuration];
+    chart_temporal& result = r.temporal[configuration];
     for (auto* times : { &result.still_times, &result.moving_times }) {
         times->emplace_back();
         times->back().route = route;
@@ -175,7 +175,7 @@ contestant make_contestant(chart_results& r, const std::string& backend, std::si
 }
 
 // The cost of a frame of a view that stands, and of one in which the camera moves.
-void find_costs(temporal_result& r, const chart_options& o)
+void find_costs(chart_temporal& r, const chart_options& o)
 {
     temporal_facts f;
     f.frame.width = o.size.width;
@@ -241,7 +241,7 @@ private:
     void run(contestant& c, int f)
     {
         const int count = r_.options.frames;
-        temporal_result& result = r_.temporal[c.configuration];
+        chart_temporal& result = r_.temporal[c.configuration];
         if (f == 0) {
             ao::temporal_settings s = result.configuration.settings;
             s.radius = place_.radius;
@@ -276,7 +276,7 @@ private:
 
     void finish(contestant& c, const std::vector<float>& seen)
     {
-        temporal_result& result = r_.temporal[c.configuration];
+        chart_temporal& result = r_.temporal[c.configuration];
         if (c.runner->backend() == "cpu") {
             motion_error e;
             e.view = place_.name;
@@ -353,7 +353,7 @@ void chart_motion(chart_results& r)
 {
     const chart_options& o = r.options;
     for (temporal_configuration& c : temporal_configurations(o)) {
-        temporal_result next;
+        chart_temporal next;
         next.configuration = std::move(c);
         find_costs(next, o);
         r.temporal.push_back(std::move(next));

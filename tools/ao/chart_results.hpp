@@ -64,7 +64,7 @@ struct motion_error {
     double first = 0.0; // RMSE of the first frame
 };
 
-struct temporal_result {
+struct chart_temporal {
     temporal_configuration configuration;
     std::optional<pixel_cost> still, moving;
     std::vector<motion_error> errors;
@@ -98,7 +98,7 @@ struct chart_results {
     std::vector<view_facts> views;
     std::vector<single_result> single;
     std::vector<chart_route> temporal_routes;
-    std::vector<temporal_result> temporal;
+    std::vector<chart_temporal> temporal;
     std::optional<vertex_results> vertices;
 };
 

@@ -12,22 +12,6 @@
 namespace ao::tools {
 namespace {
 
-const char* name_of(pass_type type)
-{
-    switch (type) {
-    case pass_type::linearize:
-        return "linearize";
-    case pass_type::occlusion:
-        return "occlusion";
-    case pass_type::filter_rows:
-        return "filter rows";
-    case pass_type::filter_columns:
-        return "filter columns";
-    default:
-        return "pass";
-    }
-}
-
 const char* name_of(image_id id)
 {
     switch (id) {
@@ -50,10 +34,11 @@ const char* name_of(image_id id)
     }
 }
 
+// The pass that estimates visibility.
 ao::pass* occlusion_of(ao::plan& p)
 {
     for (ao::pass& each : p.passes)
-        if (each.type == pass_type::occlusion)
+        if (each.type == pass_type::occlusion || each.type == pass_type::bitmask)
             return &each;
     return nullptr;
 }
@@ -160,7 +145,7 @@ std::string plan_text(const ao::plan& p)
         }
         pictures += " -> ";
         pictures += name_of(each.output);
-        add_pass(text, name_of(each.type), pictures, cost_of(p, each));
+        add_pass(text, pass_text(each.type), pictures, cost_of(p, each));
     }
     add_pass(text, "in all", "", cost_of(p));
     return text;
@@ -261,9 +246,10 @@ std::vector<elimination> eliminations_of(const ao::plan& p)
         add("pass linearize", "depth is eye depth already", with_linearize(p));
     if (occlusion == nullptr)
         return all;
-    if (p.settings.filter == 1)
+    const bool kernel = occlusion->type == pass_type::occlusion;
+    if (kernel && p.settings.filter == 1)
         add("passes filter rows and columns", "a window of one pixel is that pixel", with_filter(p));
-    if (!occlusion->options.limit_thickness)
+    if (kernel && !occlusion->options.limit_thickness)
         add("far test of every tap", "nothing lies farther behind than an infinite thickness", with_thickness(p));
     if (!occlusion->options.rotate_normals && p.facts.normals != normal_source::from_depth)
         add("rotation of normals", "they are stored in view space", with_rotation(p));

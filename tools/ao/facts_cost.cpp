@@ -201,6 +201,7 @@ options_of_pass options_of(const ao::plan& p, const ao::pass& each)
              { "ao_limit_thickness", o.limit_thickness },
              { "ao_mark_background", o.mark_background },
              { "ao_filter_radius", number(o.filter_radius) },
+             { "ao_slice_count", number(o.slice_count) },
              { "depth_in_z", p.facts.depth == depth_source::position } };
 }
 
@@ -222,10 +223,10 @@ options_of_pass options_of(const temporal_options& o)
              { "ao_affine", o.affine } };
 }
 
-std::span<const std::uint32_t> shader_of(pass_type type)
+std::span<const std::uint32_t> shader_of(const ao::pass& each)
 {
     using namespace vk::shaders;
-    switch (type) {
+    switch (each.type) {
     case pass_type::linearize:
         return linearize_comp;
     case pass_type::occlusion:
@@ -234,9 +235,14 @@ std::span<const std::uint32_t> shader_of(pass_type type)
         return filter_rows_comp;
     case pass_type::filter_columns:
         return filter_columns_comp;
-    default:
-        return {};
+    case pass_type::bitmask:
+        return each.options.mark_background ? bitmask_comp_packed : bitmask_comp;
+    case pass_type::denoise_rows:
+        return denoise_rows_comp;
+    case pass_type::denoise_columns:
+        return denoise_columns_comp;
     }
+    return {};
 }
 
 std::span<const std::uint32_t> shader_of(temporal_pass_type type)
@@ -315,8 +321,8 @@ std::optional<pixel_cost> cost_of(const ao::plan& p, const ao::pass& each)
     const auto options = options_of(p, each);
     const auto [at, fresh] = known.try_emplace({ each.type, options });
     if (fresh) {
-        const bool filters = each.type == pass_type::filter_rows || each.type == pass_type::filter_columns;
-        at->second = cost_of_module(shader_of(each.type), options,
+        const bool filters = each.options.filter_radius > 0;
+        at->second = cost_of_module(shader_of(each), options,
                                     filters ? 2 * each.options.filter_radius + 1 : std::max(each.options.tap_count, 1));
     }
     pixel_cost cost = at->second;

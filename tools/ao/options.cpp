@@ -100,17 +100,34 @@ void parse_inputs(const render_arguments& a, facts& f)
 
 ao::settings parse_settings(const render_arguments& a)
 {
-    static constexpr std::array<std::pair<std::string_view, ao::method>, 3> methods{ {
+    static constexpr std::array<std::pair<std::string_view, ao::method>, 4> methods{ {
         { "box", method::box },
         { "hemisphere", method::hemisphere },
         { "halton", method::halton },
+        { "bitmask", method::bitmask },
+    } };
+    static constexpr std::array<std::pair<std::string_view, ao::preset>, 4> presets{ {
+        { "low", preset::low },
+        { "medium", preset::medium },
+        { "high", preset::high },
+        { "ultra", preset::ultra },
     } };
     ao::settings s;
-    s.method = choose("--method", a.method, methods);
-    s.taps = a.taps;
+    if (!a.method.empty())
+        s.method = choose("--method", a.method, methods);
+    if (!a.preset.empty() || s.method == method::bitmask) {
+        const ao::preset chosen = a.preset.empty() ? preset::high : choose("--preset", a.preset, presets);
+        if (!a.method.empty() && s.method != method::bitmask)
+            throw error("--preset: of --method bitmask");
+        s = settings_of(chosen);
+    }
+    s.taps = a.taps.value_or(s.taps);
+    s.slices = a.slices.value_or(s.slices);
+    if (a.slices && s.method != method::bitmask)
+        throw error("--slices: of --method bitmask");
     s.radius = static_cast<float>(a.radius);
-    s.bias = static_cast<float>(a.bias);
-    s.filter = a.filter;
+    s.bias = static_cast<float>(a.bias.value_or(static_cast<double>(s.bias)));
+    s.filter = a.filter.value_or(s.filter);
     if (a.thickness == "infinite")
         s.thickness = std::numeric_limits<float>::infinity();
     else if (!a.thickness.empty())
@@ -132,8 +149,10 @@ void add_render_options(CLI::App& command, render_arguments& a)
     command.add_option("--device", a.device, "part of the GL or Vulkan device's name; without it llvmpipe and lavapipe");
     command.add_option("--route", a.route, "of gl: compute|fragment|all");
     command.add_option("--lanes", a.lanes, "of cpu: auto|scalar|4|8|16");
-    command.add_option("--method", a.method, "box|hemisphere|halton");
+    command.add_option("--method", a.method, "box|hemisphere|halton|bitmask; hemisphere without it");
+    command.add_option("--preset", a.preset, "of bitmask: low|medium|high|ultra, which sets what is not given; high without it");
     command.add_option("--taps", a.taps, "per pixel, 1 to 1024");
+    command.add_option("--slices", a.slices, "of bitmask, 1 to 16: taps are of all slices and both their sides");
     command.add_option("--radius", a.radius, "scene units");
     command.add_option("--bias", a.bias, "scene units");
     command.add_option("--thickness", a.thickness, "in radii, or 'infinite'");

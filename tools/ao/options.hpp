@@ -53,12 +53,14 @@ struct render_options {
 
 // Adds the subcommand's options; `read` is what they are parsed into.
 struct render_arguments {
-    std::string scene, backend = "all", device, route = "all", lanes = "auto", method = "hemisphere", depth;
+    std::string scene, backend = "all", device, route = "all", lanes = "auto", method, preset, depth;
     std::string normals = "rgba16f", size = "1280x720", eye, projection = "perspective", out, json, thickness;
     std::string gbuffer = "raster", blend, lights;
-    int taps = 32, filter = 5, frames = 5;
+    std::optional<int> taps, slices, filter;
+    std::optional<double> bias;
+    int frames = 5;
     long long seed = 1, reference = 0;
-    double radius = 1.0, bias = 0.02, yaw = 0.0, pitch = 0.0, fov = 0.0;
+    double radius = 1.0, yaw = 0.0, pitch = 0.0, fov = 0.0;
     bool has_yaw = false, has_pitch = false, has_fov = false, has_frames = false, progress = false, shade = false;
     temporal_arguments temporal;
 };

@@ -107,6 +107,7 @@ std::string json_of(const render_result& r)
                     { "projection", projection_text(o.projection) } };
     j["settings"] = { { "method", method_text(o.settings.method) },
                       { "taps", o.settings.taps },
+                      { "slices", o.settings.slices },
                       { "radius", o.settings.radius },
                       { "bias", o.settings.bias },
                       { "thickness", number_or_null(static_cast<double>(o.settings.thickness)) },

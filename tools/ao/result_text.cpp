@@ -24,7 +24,38 @@ std::string size_text(extent size)
 
 const char* method_text(method m)
 {
-    return m == method::box ? "box" : m == method::hemisphere ? "hemisphere" : "halton";
+    switch (m) {
+    case method::box:
+        return "box";
+    case method::hemisphere:
+        return "hemisphere";
+    case method::halton:
+        return "halton";
+    case method::bitmask:
+        return "bitmask";
+    }
+    return "unknown";
+}
+
+const char* pass_text(pass_type type)
+{
+    switch (type) {
+    case pass_type::linearize:
+        return "linearize";
+    case pass_type::occlusion:
+        return "occlusion";
+    case pass_type::filter_rows:
+        return "filter rows";
+    case pass_type::filter_columns:
+        return "filter columns";
+    case pass_type::bitmask:
+        return "bitmask";
+    case pass_type::denoise_rows:
+        return "denoise rows";
+    case pass_type::denoise_columns:
+        return "denoise columns";
+    }
+    return "unknown";
 }
 
 const char* depth_text(const facts& f)

@@ -13,6 +13,7 @@ namespace ao::tools {
 [[nodiscard]] std::string text(float value);
 [[nodiscard]] std::string size_text(extent size);
 [[nodiscard]] const char* method_text(method m);
+[[nodiscard]] const char* pass_text(pass_type type);
 [[nodiscard]] const char* depth_text(const facts& f);
 [[nodiscard]] const char* normals_text(const facts& f);
 [[nodiscard]] const char* contribution_text(contribution_type c);

@@ -1,6 +1,7 @@
 #include "ao/runs.hpp"
 
 #include "ao/outcome.hpp"
+#include "ao/result_text.hpp"
 #include "host/runner.hpp"
 #include "host/scene_runner.hpp"
 #include "scene/metrics.hpp"
@@ -12,21 +13,6 @@
 
 namespace ao::tools {
 namespace {
-
-const char* name_of(pass_type type)
-{
-    switch (type) {
-    case pass_type::linearize:
-        return "linearize";
-    case pass_type::occlusion:
-        return "occlusion";
-    case pass_type::filter_rows:
-        return "filter rows";
-    case pass_type::filter_columns:
-        return "filter columns";
-    }
-    return "unknown";
-}
 
 void time_frames(run_outcome& out, host::runner& r, int frames)
 {
@@ -40,7 +26,7 @@ void time_frames(run_outcome& out, host::runner& r, int frames)
         if (frame == 0) {
             times.resize(passes.size());
             for (const host::pass_time& p : passes)
-                out.passes.push_back({ name_of(p.pass), 0.0 });
+                out.passes.push_back({ pass_text(p.pass), 0.0 });
         }
         double total = 0;
         for (std::size_t i = 0; i < passes.size(); ++i) {

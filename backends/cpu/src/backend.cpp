@@ -18,9 +18,8 @@ void free_aligned::operator()(void* p) const
     ::operator delete[](p, std::align_val_t{ 64 });
 }
 
-void fill_rotation(float* to, std::uint32_t seed)
+void fill_rotation(float* to, std::span<const glm::vec2> rotation)
 {
-    const auto rotation = make_rotation_tile(seed);
     for (std::size_t i = 0; i < rotation.size(); ++i) {
         to[i] = rotation[i].x;
         to[rotation.size() + i] = rotation[i].y;
@@ -70,19 +69,19 @@ result<program> backend::prepare(const plan& p)
         detail::aligned_floats& target = each.id == image_id::linear_depth     ? made.linear_depth_
                                          : each.id == image_id::raw_visibility ? made.raw_visibility_
                                                                                : made.row_sums_;
-        target = detail::allocate(each.id == image_id::row_sums ? 2 * pixels : pixels);
+        target = detail::allocate(each.format == pixel_format::rg32f ? 2 * pixels : pixels);
         complete = complete && target;
     }
     if (!complete) {
         return error(errc::out_of_memory, "no memory for the pictures between the passes");
     }
-    const auto kernel = make_kernel(p.settings.method, p.settings.taps, p.settings.seed);
+    const auto kernel = make_taps(p.settings);
     for (std::size_t i = 0; i < kernel.size(); ++i) {
         for (int j = 0; j < 4; ++j) {
             made.kernel_[4 * i + static_cast<std::size_t>(j)] = kernel[i][j];
         }
     }
-    detail::fill_rotation(made.rotation_.get(), p.settings.seed);
+    detail::fill_rotation(made.rotation_.get(), make_tile(p.settings));
     return made;
 }
 
@@ -133,7 +132,18 @@ void backend::record_pass(commands, program& prepared, binding& bound, const pla
     a.source = find(each.inputs[0]);
     a.normal = find(each.inputs[1]);
     a.target = find(each.output);
-    a.counts = detail::plane_of(prepared.row_sums_, prepared.pitch_, prepared.row_sums_ ? pixels : 0);
+    // A picture of two components keeps the second one behind the first.
+    const auto second = [&](image_id id) -> detail::plane {
+        const detail::aligned_floats* of = nullptr;
+        for (const transient_image& transient : p.transients) {
+            if (transient.id == id && transient.format == pixel_format::rg32f) {
+                of = id == image_id::row_sums ? &prepared.row_sums_ : &prepared.raw_visibility_;
+            }
+        }
+        return of != nullptr ? detail::plane_of(*of, prepared.pitch_, pixels) : detail::plane{};
+    };
+    a.source_second = second(each.inputs[0]);
+    a.target_second = second(each.output);
     a.kernel = prepared.kernel_.get();
     a.rotation = prepared.rotation_.get();
     assert(a.source.data != nullptr && a.target.data != nullptr);
@@ -148,6 +158,12 @@ void backend::record_pass(commands, program& prepared, binding& bound, const pla
         return machine_->run(kernels.filter_rows, a);
     case pass_type::filter_columns:
         return machine_->run(kernels.filter_columns, a);
+    case pass_type::bitmask:
+        return machine_->run(kernels.bitmask[each.options.parallel ? 1 : 0], a);
+    case pass_type::denoise_rows:
+        return machine_->run(kernels.denoise_rows, a);
+    case pass_type::denoise_columns:
+        return machine_->run(kernels.denoise_columns, a);
     }
 }
 

@@ -44,6 +44,10 @@ struct ao::lane_instructions<16, avx512> {
     {
         return reinterpret_cast<words>(_mm512_mask_blend_epi32(m, bits(a), bits(b)));
     }
+    static unsigned_words select(unsigned_words a, unsigned_words b, mask_bits m)
+    {
+        return reinterpret_cast<unsigned_words>(_mm512_mask_blend_epi32(m, bits(a), bits(b)));
+    }
     static floats sqrt(floats x) { return _mm512_maskz_sqrt_ps(0xffff, x); }
 
 private:

@@ -22,8 +22,9 @@ struct pass_arguments {
     float constants[32] = {};
     int width = 0; // pixels of the picture
     int height = 0;
-    plane source; // depth, visibility or sums
-    plane counts; // of the row sums, beside source or target
+    plane source;        // depth, visibility or sums
+    plane source_second; // component of a source of two
+    plane target_second;
     plane normal;
     plane target;
     const float* kernel = nullptr;   // x, y, z, 0 per tap
@@ -79,6 +80,9 @@ struct kernel_table {
     kernel occlusion[2][2]; // [parallel][limit_thickness]
     kernel filter_rows;
     kernel filter_columns;
+    kernel bitmask[2]; // [parallel]
+    kernel denoise_rows;
+    kernel denoise_columns;
     const temporal_kernel_table& temporal;
 };
 

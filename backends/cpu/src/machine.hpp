@@ -7,10 +7,13 @@
 
 #include "ao/cpu/backend.hpp"
 
+#include <glm/vec2.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <new>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -79,6 +82,6 @@ inline plane plane_of(const aligned_floats& floats, int pitch, std::size_t offse
 }
 
 // All x of the rotation tile, then all y: 2 * tile_size * tile_size floats.
-void fill_rotation(float* to, std::uint32_t seed);
+void fill_rotation(float* to, std::span<const glm::vec2> rotation);
 
 } // namespace ao::cpu::detail

@@ -80,6 +80,15 @@ struct pass_kernels {
                    [&](ivec2 pixel, int x, int y, int count) { store(a.target, x, y, pass.ao_linearize_pass(c, pixel), count); });
     }
 
+    // One component of the tile of rotations.
+    static reader<Real> rotation(const pass_arguments& a, int i)
+    {
+        reader<Real> r;
+        r.data = reinterpret_cast<const std::byte*>(a.rotation + i * tile_size * tile_size);
+        r.row_words = tile_size;
+        return r;
+    }
+
     // The options that are asked per tap are constants.
     template <bool Parallel, bool LimitThickness>
     AO_CPU_KERNEL static void occlusion(const pass_arguments& a, const tile& t)
@@ -93,14 +102,8 @@ struct pass_kernels {
         pass.ao_mark_background = a.options.mark_background;
         pass.resources.eye_depth = reader<Real>(a.source);
         pass.resources.normals = reader<Real>(a.normal);
-        const auto rotation = [&](int i) {
-            reader<Real> r;
-            r.data = reinterpret_cast<const std::byte*>(a.rotation + i * tile_size * tile_size);
-            r.row_words = tile_size;
-            return r;
-        };
-        pass.resources.rotation_x = rotation(0);
-        pass.resources.rotation_y = rotation(1);
+        pass.resources.rotation_x = rotation(a, 0);
+        pass.resources.rotation_y = rotation(a, 1);
         pass.resources.kernel = a.kernel;
         const auto c = constants<typename decltype(pass)::ao_occlusion_constants>(a);
         for_blocks(t,
@@ -116,7 +119,7 @@ struct pass_kernels {
         for_blocks(t, [&](ivec2 pixel, int x, int y, int count) {
             const vec2 sum = pass.ao_filter_rows_pass(c, pixel);
             store(a.target, x, y, sum.x, count);
-            store(a.counts, x, y, sum.y, count);
+            store(a.target_second, x, y, sum.y, count);
         });
     }
 
@@ -125,10 +128,70 @@ struct pass_kernels {
         filter_pass<Real, filter_resources<Real>> pass{};
         pass.ao_filter_radius = a.options.filter_radius;
         pass.resources.first = reader<Real>(a.source);
-        pass.resources.counts = reader<Real>(a.counts);
+        pass.resources.counts = reader<Real>(a.source_second);
         const auto c = constants<typename decltype(pass)::ao_filter_constants>(a);
         for_blocks(t, [&](ivec2 pixel, int x, int y, int count) {
             store(a.target, x, y, pass.ao_filter_columns_pass(c, pixel), count);
+        });
+    }
+
+    template <bool Parallel>
+    AO_CPU_KERNEL static void bitmask(const pass_arguments& a, const tile& t)
+    {
+        bitmask_pass<Real, occlusion_resources<Real>> pass{};
+        pass.ao_tap_count = a.options.tap_count;
+        pass.ao_slice_count = a.options.slice_count;
+        pass.ao_normal_source = a.options.normal_source;
+        pass.ao_rotate_normals = a.options.rotate_normals;
+        pass.ao_parallel = Parallel;
+        pass.ao_mark_background = a.options.mark_background;
+        pass.resources.eye_depth = reader<Real>(a.source);
+        pass.resources.normals = reader<Real>(a.normal);
+        pass.resources.rotation_x = rotation(a, 0);
+        pass.resources.rotation_y = rotation(a, 1);
+        pass.resources.kernel = a.kernel;
+        const auto c = constants<typename decltype(pass)::ao_occlusion_constants>(a);
+        for_blocks(t, [&](ivec2 pixel, int x, int y, int count) {
+            if (!a.options.mark_background) {
+                store(a.target, x, y, pass.ao_bitmask_pass(c, pixel).visibility, count);
+                return;
+            }
+            const vec2 packed = pass.ao_bitmask_packed_pass(c, pixel);
+            store(a.target, x, y, packed.x, count);
+            store(a.target_second, x, y, packed.y, count);
+        });
+    }
+
+    static denoise_pass<Real, denoise_resources<Real>> denoise(const pass_arguments& a)
+    {
+        denoise_pass<Real, denoise_resources<Real>> pass{};
+        pass.ao_filter_radius = a.options.filter_radius;
+        pass.ao_normal_source = a.options.normal_source;
+        pass.ao_rotate_normals = a.options.rotate_normals;
+        pass.ao_parallel = a.options.parallel;
+        pass.resources.visibility = reader<Real>(a.source);
+        pass.resources.eye_depth = reader<Real>(a.source_second);
+        pass.resources.normals = reader<Real>(a.normal);
+        return pass;
+    }
+
+    AO_CPU_KERNEL static void denoise_rows(const pass_arguments& a, const tile& t)
+    {
+        auto pass = denoise(a);
+        const auto c = constants<typename decltype(pass)::ao_denoise_constants>(a);
+        for_blocks(t, [&](ivec2 pixel, int x, int y, int count) {
+            const vec2 packed = pass.ao_denoise_rows_pass(c, pixel);
+            store(a.target, x, y, packed.x, count);
+            store(a.target_second, x, y, packed.y, count);
+        });
+    }
+
+    AO_CPU_KERNEL static void denoise_columns(const pass_arguments& a, const tile& t)
+    {
+        auto pass = denoise(a);
+        const auto c = constants<typename decltype(pass)::ao_denoise_constants>(a);
+        for_blocks(t, [&](ivec2 pixel, int x, int y, int count) {
+            store(a.target, x, y, pass.ao_denoise_columns_pass(c, pixel), count);
         });
     }
 
@@ -139,6 +202,9 @@ struct pass_kernels {
             { { occlusion<false, false>, occlusion<false, true> }, { occlusion<true, false>, occlusion<true, true> } },
             filter_rows,
             filter_columns,
+            { bitmask<false>, bitmask<true> },
+            denoise_rows,
+            denoise_columns,
             temporal,
         };
     }

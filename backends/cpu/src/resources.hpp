@@ -103,8 +103,21 @@ struct occlusion_resources {
     vec4 tap(int i) const
     {
         const float* offset = kernel + 4 * i;
-        return vec4(Real(offset[0]), Real(offset[1]), Real(offset[2]), Real(0));
+        return vec4(Real(offset[0]), Real(offset[1]), Real(offset[2]), Real(offset[3]));
     }
+};
+
+template <class Real>
+struct denoise_resources {
+    using ivec2 = typename math<Real>::ivec2;
+    using vec2 = typename math<Real>::vec2;
+    using vec4 = typename math<Real>::vec4;
+    reader<Real> visibility;
+    reader<Real> eye_depth;
+    reader<Real> normals;
+
+    vec2 packed(ivec2 pixel) const { return vec2(visibility.loaded(pixel), eye_depth.loaded(pixel)); }
+    vec4 normal(ivec2 pixel) const { return normals.normal(pixel); }
 };
 
 template <class Real>

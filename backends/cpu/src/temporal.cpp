@@ -128,7 +128,7 @@ result<temporal_program> temporal::prepare_temporal(const temporal_plan& p)
     for (const detail::aligned_words& history : made->histories) {
         std::fill_n(history.get(), made->history_size(), 0U);
     }
-    detail::fill_rotation(made->rotation.get(), p.settings.seed);
+    detail::fill_rotation(made->rotation.get(), make_rotation_tile(p.settings.seed));
     for (std::size_t i = 0; i < made->period; ++i) {
         const glm::vec4 tap = temporal_tap(p.settings.density, static_cast<std::uint32_t>(i));
         for (std::size_t component = 0; component < 3; ++component) {

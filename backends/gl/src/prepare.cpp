@@ -14,10 +14,10 @@ namespace {
 
 void make_tables(const functions& gl, program_state& state, const settings& s)
 {
-    const auto taps = make_kernel(s.method, s.taps, s.seed);
+    const auto taps = make_taps(s);
     state.taps = make_object(gl, object_type::buffer, gl.CreateBuffers);
     gl.NamedBufferStorage(state.taps.name(), sizeof taps, taps.data(), 0);
-    state.images[index_of(image_id::rotation)] = make_rotations(gl, s.seed);
+    state.images[index_of(image_id::rotation)] = make_tile_texture(gl, make_tile(s));
 }
 
 } // namespace
@@ -41,13 +41,17 @@ object make_sampler(const functions& gl)
     return sampler;
 }
 
-object make_rotations(const functions& gl, std::uint32_t seed)
+object make_tile_texture(const functions& gl, std::span<const glm::vec2> tile)
 {
-    const auto tile = make_rotation_tile(seed);
     object rotations = make_texture(gl, GL_RG32F, tile_size, tile_size);
     const plain_unpack_state plain(gl);
     gl.TextureSubImage2D(rotations.name(), 0, 0, 0, tile_size, tile_size, GL_RG, GL_FLOAT, tile.data());
     return rotations;
+}
+
+object make_rotations(const functions& gl, std::uint32_t seed)
+{
+    return make_tile_texture(gl, make_rotation_tile(seed));
 }
 
 result<object> make_framebuffer(const functions& gl, GLuint texture)

@@ -15,11 +15,14 @@ namespace {
 // constant_id of the shaders and their values; a boolean is 0 or 1.
 constexpr std::size_t pass_constant_count = 9;
 constexpr std::size_t group_constant_count = 2; // compute only, behind those of the passes
-using constant_values = std::array<GLuint, pass_constant_count + group_constant_count>;
+constexpr std::size_t slice_constant_count = 1;
+using constant_values = std::array<GLuint, pass_constant_count + group_constant_count + slice_constant_count>;
 
 constexpr std::array<GLuint, 4> linearize_ids{ 0, 8, 9, 10 };
 constexpr std::array<GLuint, 8> occlusion_ids{ 1, 2, 3, 4, 5, 6, 9, 10 };
 constexpr std::array<GLuint, 3> filter_ids{ 7, 9, 10 };
+constexpr std::array<GLuint, 8> bitmask_ids{ 1, 2, 3, 4, 6, 11, 9, 10 };
+constexpr std::array<GLuint, 6> denoise_ids{ 2, 3, 4, 7, 9, 10 };
 
 source source_of(pass_type type, route by)
 {
@@ -41,6 +44,15 @@ source source_of(pass_type type, route by)
     case pass_type::filter_rows:
         return pick({ compute ? filter_rows_comp : filter_rows_frag, compute ? filter_rows_comp_text : filter_rows_frag_text,
                       filter_ids, "filter rows" });
+    case pass_type::bitmask:
+        return pick(
+            { compute ? bitmask_comp : bitmask_frag, compute ? bitmask_comp_text : bitmask_frag_text, bitmask_ids, "bitmask" });
+    case pass_type::denoise_rows:
+        return pick({ compute ? denoise_rows_comp : denoise_rows_frag, compute ? denoise_rows_comp_text : denoise_rows_frag_text,
+                      denoise_ids, "denoise rows" });
+    case pass_type::denoise_columns:
+        return pick({ compute ? denoise_columns_comp : denoise_columns_frag,
+                      compute ? denoise_columns_comp_text : denoise_columns_frag_text, denoise_ids, "denoise columns" });
     case pass_type::filter_columns:
         break;
     }
@@ -63,7 +75,8 @@ result<object> link_pass(const functions& gl, const options& chosen, const pass&
                                   static_cast<GLuint>(o.filter_radius),
                                   from_position,
                                   chosen.group_width,
-                                  chosen.group_height };
+                                  chosen.group_height,
+                                  static_cast<GLuint>(o.slice_count) };
     const bool compute = chosen.route == route::compute;
     const source from = source_of(p.type, chosen.route);
 

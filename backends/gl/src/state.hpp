@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace ao::gl {
@@ -83,7 +84,10 @@ object make_texture(const functions& gl, GLenum format, int width, int height);
 // comparison undefined.
 object make_sampler(const functions& gl);
 
-// The tile of rotations that a seed gives, GL_RG32F.
+// A tile of tile_size squared texels, GL_RG32F.
+object make_tile_texture(const functions& gl, std::span<const glm::vec2> tile);
+
+// The tile of rotations that a seed gives.
 object make_rotations(const functions& gl, std::uint32_t seed);
 
 // A framebuffer with level 0 of a texture as its only color.

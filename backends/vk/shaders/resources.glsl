@@ -13,8 +13,10 @@ layout(constant_id = 5) const bool ao_limit_thickness = false;
 layout(constant_id = 6) const bool ao_mark_background = false;
 layout(constant_id = 7) const int ao_filter_radius = 0;
 layout(constant_id = 8) const bool depth_in_z = false; // positions
+layout(constant_id = 9) const int ao_slice_count = 1;
 
-// The first of ao::pass::inputs. AO_STORED_SOURCE: it is the program's own picture of that format, read as a storage image.
+// The first of ao::pass::inputs. AO_DEPTH_IN_Y: it holds packed visibility and eye depth.
+// AO_STORED_SOURCE: it is the program's own picture of that format, read as a storage image.
 #ifdef AO_STORED_SOURCE
 layout(binding = 5, AO_STORED_SOURCE) uniform readonly image2D source;
 vec4 fetch_source(ivec2 pixel) { return imageLoad(source, pixel); }
@@ -32,7 +34,12 @@ real ao_load_stored_depth(ivec2 pixel)
     vec4 texel = fetch_source(pixel);
     return depth_in_z ? texel.z : texel.x;
 }
+#ifdef AO_DEPTH_IN_Y
+vec2 ao_load_packed(ivec2 pixel) { return fetch_source(pixel).xy; }
+real ao_load_depth(ivec2 pixel) { return fetch_source(pixel).y; }
+#else
 real ao_load_depth(ivec2 pixel) { return fetch_source(pixel).x; }
+#endif
 vec4 ao_load_normal(ivec2 pixel) { return texelFetch(normals, pixel, 0); }
 vec2 ao_load_rotation(ivec2 texel) { return texelFetch(rotations, texel.y * ao_tile_size + texel.x).xy; }
 vec4 ao_tap(int i) { return offsets[i]; }

@@ -148,8 +148,8 @@ result<picture> make_picture(const device& d, const picture_shape& shape)
 
 result<tables> make_tables(const device& d, const plan& p)
 {
-    const auto kernel = make_kernel(p.settings.method, p.settings.taps, p.settings.seed);
-    const auto tile = make_rotation_tile(p.settings.seed);
+    const auto kernel = make_taps(p.settings);
+    const auto tile = make_tile(p.settings);
     static_assert(sizeof(kernel) == tables::kernel_bytes && sizeof(glm::vec2) == 8);
 
     tables made;

@@ -32,6 +32,16 @@ std::span<const std::uint32_t> shader_of(const device& d, const pass& each, cons
     case pass_type::filter_columns:
         return pick(
             { filter_columns_comp, filter_columns_comp_r8, filter_columns_comp_software, filter_columns_comp_software_r8 });
+    case pass_type::bitmask:
+        if (each.options.mark_background) {
+            return is_software(d) ? bitmask_comp_software_packed : bitmask_comp_packed;
+        }
+        return pick({ bitmask_comp, bitmask_comp_r8, bitmask_comp_software, bitmask_comp_software_r8 });
+    case pass_type::denoise_rows:
+        return is_software(d) ? denoise_rows_comp_software : denoise_rows_comp;
+    case pass_type::denoise_columns:
+        return pick(
+            { denoise_columns_comp, denoise_columns_comp_r8, denoise_columns_comp_software, denoise_columns_comp_software_r8 });
     }
     return {};
 }
@@ -39,7 +49,7 @@ std::span<const std::uint32_t> shader_of(const device& d, const pass& each, cons
 result<owned<VkPipeline>> make_pipeline(const device& d, const plan& p, const pass& each, VkPipelineLayout layout)
 {
     const pass_options& o = each.options;
-    const std::array<specialisation_value, 11> values{ { { 0, o.affine },
+    const std::array<specialisation_value, 12> values{ { { 0, o.affine },
                                                          { 1, static_cast<std::uint32_t>(o.tap_count) },
                                                          { 2, static_cast<std::uint32_t>(o.normal_source) },
                                                          { 3, o.rotate_normals },
@@ -48,6 +58,7 @@ result<owned<VkPipeline>> make_pipeline(const device& d, const plan& p, const pa
                                                          { 6, o.mark_background },
                                                          { 7, static_cast<std::uint32_t>(o.filter_radius) },
                                                          { 8, p.facts.depth == depth_source::position },
+                                                         { 9, static_cast<std::uint32_t>(o.slice_count) },
                                                          { 10, d.host.group.x },
                                                          { 11, d.host.group.y } } };
     return make_compute_pipeline(d, shader_of(d, each, p), values, layout);

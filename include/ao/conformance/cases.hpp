@@ -56,13 +56,13 @@ inline constexpr std::array<normal_choice, 5> normal_choices{ {
 
 inline constexpr std::array<std::pair<int, int>, 4> sizes{ { { 1, 1 }, { 1, 7 }, { 33, 17 }, { 64, 48 } } };
 
-// One option each: how many choices there are.
+// One option each: how many choices there are; of methods, those that all pairs are made of.
 enum factor : std::size_t {
     of_depth,
     of_normals,
     of_size,
     of_filter,
-    of_kernel,
+    of_method,
     of_contents,
     of_taps,
     of_world_normals,
@@ -134,6 +134,7 @@ private:
 
 } // namespace detail
 
+// All pairs of choices, then every third case once more with the method `bitmask`.
 // Greedy: each case starts from a random draw and takes, option by option, the choice that closes most open pairs.
 inline std::vector<choice> all_pairs()
 {
@@ -161,6 +162,11 @@ inline std::vector<choice> all_pairs()
             cases.push_back(c);
         }
     }
+    for (std::size_t i = 0, pairs = cases.size(); i < pairs; i += 3) {
+        choice sliced = cases[i];
+        sliced[of_method] = static_cast<std::uint32_t>(method::bitmask);
+        cases.push_back(sliced);
+    }
     return cases;
 }
 
@@ -186,16 +192,20 @@ inline camera_projection make_case_projection(const choice& c)
 
 inline pass_case make_case(const choice& c)
 {
-    constexpr std::array<std::string_view, 3> kernels{ "box", "hemisphere", "halton" };
+    constexpr std::array<std::string_view, 4> methods{ "box", "hemisphere", "halton", "bitmask" };
     constexpr std::array<std::string_view, 3> kinds{ "scene", "noise", "poisoned" };
     constexpr std::array<int, 3> taps{ 8, 32, 13 };
     constexpr std::array<int, 4> filters{ 1, 3, 5, 31 };
     pass_case made;
-    made.settings.method = static_cast<method>(c[of_kernel]);
+    made.settings.method = static_cast<method>(c[of_method]);
     made.settings.taps = taps[c[of_taps]];
+    if (made.settings.method == method::bitmask && made.settings.taps == 13) {
+        made.settings.taps = 12;
+        made.settings.slices = 3;
+    }
     made.settings.radius = 0.8F;
     made.settings.filter = filters[c[of_filter]];
-    made.settings.seed = 1 + c[of_kernel] + c[of_size];
+    made.settings.seed = 1 + c[of_method] + c[of_size];
     if (c[of_thickness] != 0) {
         made.settings.thickness = 0.9F;
     }
@@ -236,7 +246,7 @@ inline pass_case make_case(const choice& c)
 
     const auto text = [](auto value) { return std::to_string(value); };
     const auto option = [&](factor f, std::string_view name) { return c[f] != 0 ? ", " + std::string(name) : std::string(); };
-    made.name = std::string(kernels[c[of_kernel]]) + " " + text(made.settings.taps) + " taps, " + text(made.facts.width) + "x" +
+    made.name = std::string(methods[c[of_method]]) + " " + text(made.settings.taps) + " taps, " + text(made.facts.width) + "x" +
                 text(made.facts.height) + " " + std::string(kinds[c[of_contents]]) + ", depth " +
                 std::string(depth_choices[c[of_depth]].name) + ", normals " + std::string(normal_choices[c[of_normals]].name) +
                 ", filter " + text(made.settings.filter) + option(of_parallel, "parallel") + option(of_range, "z -1..1") +

@@ -168,6 +168,7 @@ struct readers {
     }
     Real visibility(ivec2 pixel) const { return first(pixel).x; }
     glm::vec<2, Real> row_sum(ivec2 pixel) const { return glm::vec<2, Real>(first(pixel)); }
+    glm::vec<2, Real> packed(ivec2 pixel) const { return glm::vec<2, Real>(first(pixel)); }
 };
 
 } // namespace detail
@@ -181,19 +182,24 @@ public:
     {
         at(image_id::depth) = decode<Real>(depth);
         at(image_id::normal) = decode<Real>(normal);
-        const auto tile = make_rotation_tile(p.settings.seed);
+        const auto tile = make_tile(p.settings);
         values<Real>& rotation = at(image_id::rotation) = values<Real>(tile_size, tile_size);
         for (std::size_t i = 0; i < tile.size(); ++i) {
             rotation.texels[i].x = Real(tile[i].x);
             rotation.texels[i].y = Real(tile[i].y);
         }
-        const auto kernel = make_kernel(p.settings.method, p.settings.taps, p.settings.seed);
+        const auto kernel = make_taps(p.settings);
         taps_.assign(kernel.begin(), kernel.end());
     }
 
     // The visibility before it is stored.
     const values<Real>& run()
     {
+        if constexpr (std::is_same_v<Real, interval>) {
+            if (plan_.settings.method == method::bitmask) {
+                return anything();
+            }
+        }
         for (const pass& each : plan_.passes) {
             run_pass(each);
         }
@@ -253,6 +259,29 @@ private:
             over_pixels(each, [&](ivec2 pixel, auto& out) { out.x = run.ao_occlusion_pass(c, pixel); });
             break;
         }
+        case pass_type::bitmask: {
+            if constexpr (!std::is_same_v<Real, interval>) {
+                run_bitmask(each, read);
+            }
+            break;
+        }
+        case pass_type::denoise_rows:
+        case pass_type::denoise_columns: {
+            using body = denoise_pass<Real, resources>;
+            body run{ read, o.filter_radius, o.normal_source, o.rotate_normals, o.parallel };
+            const auto c = convert_constants<typename body::ao_denoise_constants, Real, denoise_constants, float>(
+                constants_of<denoise_constants>(each));
+            if (each.type == pass_type::denoise_columns) {
+                over_pixels(each, [&](ivec2 pixel, auto& out) { out.x = run.ao_denoise_columns_pass(c, pixel); });
+                break;
+            }
+            over_pixels(each, [&](ivec2 pixel, auto& out) {
+                const auto packed = run.ao_denoise_rows_pass(c, pixel);
+                out.x = packed.x;
+                out.y = packed.y;
+            });
+            break;
+        }
         case pass_type::filter_rows:
         case pass_type::filter_columns: {
             using body = filter_pass<Real, resources>;
@@ -271,6 +300,34 @@ private:
             break;
         }
         }
+    }
+
+    // Which sectors a tap blocks has no bounds: nothing but the range is known of the method `bitmask` off exact drivers.
+    const values<Real>& anything()
+    {
+        values<Real>& visibility = at(image_id::visibility) = values<Real>(plan_.facts.width, plan_.facts.height);
+        for (auto& texel : visibility.texels) {
+            texel.x = Real(0.0F, 1.0F);
+        }
+        return visibility;
+    }
+
+    void run_bitmask(const pass& each, const resources& read)
+    {
+        const pass_options& o = each.options;
+        using body = bitmask_pass<Real, resources>;
+        body run{ read, o.tap_count, o.slice_count, o.normal_source, o.rotate_normals, o.parallel, o.mark_background };
+        const auto c = convert_constants<typename body::ao_occlusion_constants, Real, occlusion_constants, float>(
+            constants_of<occlusion_constants>(each));
+        over_pixels(each, [&](ivec2 pixel, auto& out) {
+            if (!o.mark_background) {
+                out.x = run.ao_bitmask_pass(c, pixel).visibility;
+                return;
+            }
+            const auto packed = run.ao_bitmask_packed_pass(c, pixel);
+            out.x = packed.x;
+            out.y = packed.y;
+        });
     }
 
     plan plan_;

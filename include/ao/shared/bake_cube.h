@@ -55,7 +55,8 @@ struct ao_cube_triangle {
     vec3 bc; // normals of the planes through the camera and two corners
     vec3 ca;
     vec3 ab;
-    real volume; // six times, of the camera and the corners; below 0 where the corners are seen counter-clockwise, mirrored or not
+    real
+        volume; // six times, of the camera and the corners; below 0 where the corners are seen counter-clockwise, mirrored or not
 };
 
 // Corners as a face's camera sees them.

@@ -17,12 +17,12 @@ shared uint ao_large_ones[6u * gl_WorkGroupSize.x]; // 8 triangle + face
 // Faces that the triangle may be in, as bits: none of the planes that bound them has it behind.
 uint ao_cube_faces(vec3 a, vec3 b, vec3 c)
 {
-    vec3 sums_a = a + a.yzx; // xy, yz, zx
-    vec3 sums_b = b + b.yzx;
-    vec3 sums_c = c + c.yzx;
-    vec3 differences_a = a - a.yzx;
-    vec3 differences_b = b - b.yzx;
-    vec3 differences_c = c - c.yzx;
+    AO_PRECISE vec3 sums_a = a + a.yzx; // xy, yz, zx
+    AO_PRECISE vec3 sums_b = b + b.yzx;
+    AO_PRECISE vec3 sums_c = c + c.yzx;
+    AO_PRECISE vec3 differences_a = a - a.yzx;
+    AO_PRECISE vec3 differences_b = b - b.yzx;
+    AO_PRECISE vec3 differences_c = c - c.yzx;
     bvec3 sum_up = greaterThanEqual(max(max(sums_a, sums_b), sums_c), vec3(0.0));
     bvec3 sum_down = lessThanEqual(min(min(sums_a, sums_b), sums_c), vec3(0.0));
     bvec3 up = greaterThanEqual(max(max(differences_a, differences_b), differences_c), vec3(0.0));
@@ -69,9 +69,9 @@ void ao_bake_main(ao_bake_launch launch)
     uint triangle = launch.first_triangle + gl_GlobalInvocationID.x;
     if (triangle < launch.last_triangle && receiver.baked) {
         uvec4 t = ao_load_triangle(triangle);
-        vec3 a = ao_load_point(t.x).xyz - receiver.start;
-        vec3 b = ao_load_point(t.y).xyz - receiver.start;
-        vec3 c = ao_load_point(t.z).xyz - receiver.start;
+        AO_PRECISE vec3 a = ao_load_point(t.x).xyz - receiver.start;
+        AO_PRECISE vec3 b = ao_load_point(t.y).xyz - receiver.start;
+        AO_PRECISE vec3 c = ao_load_point(t.z).xyz - receiver.start;
         real volume = ao_dot(a, ao_cross(b, c));
         bool taken = ao_occludes(t.w, receiver.object) && (!ao_front_only || volume < real(0));
         uint faces = taken ? ao_cube_faces(a, b, c) : 0u;
@@ -94,9 +94,10 @@ void ao_bake_main(ao_bake_launch launch)
     for (uint k = 0u; k < ao_large_count; ++k) {
         int face = int(ao_large_ones[k] % 8u);
         uvec4 t = ao_load_triangle(ao_large_ones[k] / 8u);
-        ao_cube_cover cover =
-            ao_cover_of(face, texels, ao_load_point(t.x).xyz - receiver.start, ao_load_point(t.y).xyz - receiver.start,
-                        ao_load_point(t.z).xyz - receiver.start);
+        AO_PRECISE vec3 a = ao_load_point(t.x).xyz - receiver.start;
+        AO_PRECISE vec3 b = ao_load_point(t.y).xyz - receiver.start;
+        AO_PRECISE vec3 c = ao_load_point(t.z).xyz - receiver.start;
+        ao_cube_cover cover = ao_cover_of(face, texels, a, b, c);
         ivec2 size = cover.size;
         uint of_face = at + uint(face * texels * texels);
         for (int i = int(gl_LocalInvocationID.x); i < size.x * size.y; i += int(gl_WorkGroupSize.x)) {

@@ -9,6 +9,8 @@
 #include "ao/shared/geometry.h"
 #include "ao/shared/geometry_vertex.h"
 #include "ao/shared/elementary.h"
+#include "ao/shared/sectors.h"
+#include "ao/shared/packed_visibility.h"
 #include "ao/shared/color.h"
 #include "ao/shared/blend.h"
 #include "ao/shared/shading.h"

@@ -42,15 +42,21 @@ AO_PASS vec3 ao_normal_of_depth(ao_projection p, vec2 size, ivec2 pixel, vec3 po
     return ao_normalize_or(ao_select(normal, reversed, turned), vec3(real(0), real(0), real(1)));
 }
 
-// Unit normal in view space; +Z (towards the eye) for a stored normal that is zero or not finite.
-AO_PASS vec3 ao_shading_normal(ao_projection p, ao_rotation to_view, vec2 size, ivec2 pixel, vec3 position, bool parallel)
+// Unit normal in view space from a stored one; +Z (towards the eye) where that is zero or not finite.
+AO_PASS vec3 ao_stored_normal(ao_rotation to_view, ivec2 pixel)
 {
-    if (ao_normal_source == ao_normal_from_depth) {
-        return ao_normal_of_depth(p, size, pixel, position, parallel);
-    }
     vec3 stored = ao_decoded_normal(ao_normal_source, ao_load_normal(pixel));
     if (ao_rotate_normals) {
         stored = ao_rotate(to_view, stored);
     }
     return ao_normalize_or(stored, vec3(real(0), real(0), real(1)));
+}
+
+// The same from whatever there is.
+AO_PASS vec3 ao_shading_normal(ao_projection p, ao_rotation to_view, vec2 size, ivec2 pixel, vec3 position, bool parallel)
+{
+    if (ao_normal_source == ao_normal_from_depth) {
+        return ao_normal_of_depth(p, size, pixel, position, parallel);
+    }
+    return ao_stored_normal(to_view, pixel);
 }

@@ -5,19 +5,6 @@
 //            and those of normal_pass.h and occlusion_tap.h.
 // Options:   int ao_tap_count, bool ao_mark_background; and those of normal_pass.h and occlusion_tap.h.
 
-struct ao_occlusion_constants {
-    ao_projection projection;
-    ao_rotation normal_to_view;
-    real radius;         // scene units
-    real bias;           // delta of paper 1, scene units
-    real bias_linear;    // what the depth's storage adds to it: bias + d * (linear + d * quadratic)
-    real bias_quadratic; // 1 / scene unit
-    real thickness;      // how far behind a surface an offset may lie and still be occluded, scene units
-    real background;     // eye depths from here on are background, at most 1e30
-    real width;          // pixels
-    real height;
-};
-
 // Visibility in [0, 1]; on background 1, or -1 where ao_mark_background asks for a mark that the filter understands.
 // An offset behind the eye or over background is not occluded; occlusion_tap.h tells of those off the picture.
 AO_PASS real ao_occlusion_pass(ao_occlusion_constants c, ivec2 pixel)

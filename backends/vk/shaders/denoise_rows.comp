@@ -1,0 +1,22 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#define AO_TARGET rg32f
+#define AO_DEPTH_IN_Y
+#ifdef AO_SOFTWARE
+#define AO_STORED_SOURCE rg32f
+#endif
+#include "ao/shared/prelude.glsl"
+#include "ao/shared/functions.h"
+#include "resources.glsl"
+#include "ao/shared/normal_pass.h"
+#include "ao/shared/denoise_pass.h"
+
+layout(push_constant) uniform pass_constants { ao_denoise_constants constants; };
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (in_picture(pixel)) {
+        imageStore(target, pixel, vec4(ao_denoise_rows_pass(constants, pixel), 0, 0));
+    }
+}
