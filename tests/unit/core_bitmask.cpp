@@ -247,6 +247,13 @@ TEST_CASE("Radii from below a pixel to over the picture, and normals that face a
             }
         }
     }
+    SECTION("depths so small that the radius covers all slopes")
+    {
+        for (const float depth : { 1e-30F, 1.2e-38F, 1e-40F }) {
+            std::fill(p.depth.begin(), p.depth.end(), depth);
+            CHECK(all_in_range(visibility(v, p, ao::settings_of(ao::preset::high, 1e15F))));
+        }
+    }
     SECTION("normals")
     {
         const float nan = std::numeric_limits<float>::quiet_NaN();

@@ -50,7 +50,8 @@ AO_PASS uint ao_blocked_sectors(ao_occlusion_constants c, ao_slice_walk w, ao_sl
     AO_PRECISE real sideways = offset_x * w.rise.x + offset_y * w.rise.y;
     AO_PRECISE real height = ao_parallel ? sideways + (depth * w.rise.z - w.start) : depth * (w.rise.z + sideways) - w.start;
     AO_PRECISE real y = x * side.tangent + height * w.upward;
-    mask near = seen && x > real(0) && x < real(1);
+    // So near V a direction has no cosine: lengths would underflow.
+    mask near = seen && x > real(1e-9) && x < real(1);
     AO_PRECISE real inside = real(1) - x * x;
     AO_PRECISE real rim = sqrt(mix(real(0), inside, near));
     AO_PRECISE real plane = x * side.tangent;
@@ -102,7 +103,8 @@ AO_PASS ao_bitmask_result ao_bitmask_pass(ao_occlusion_constants c, ivec2 pixel)
     AO_PRECISE real scale = real(1) / c.radius;
     AO_PRECISE real thickness = c.thickness * scale;
     AO_PRECISE real bias = (c.bias + d * (c.bias_linear + d * c.bias_quadratic)) * scale;
-    AO_PRECISE real reach = ao_parallel ? c.radius : c.radius / d;
+    // Finite, for a step of 0 times an infinite reach would be no number.
+    AO_PRECISE real reach = min(ao_parallel ? c.radius : c.radius / d, real(1e30));
     // Nearer taps would see the pixel itself.
     AO_PRECISE real least = real(1.3) * max(abs(c.projection.slope_x), abs(c.projection.slope_y));
     vec2 turn = ao_load_rotation(ao_tile_texel(pixel));
