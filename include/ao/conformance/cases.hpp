@@ -1,4 +1,4 @@
-// The list of cases for passes: every pair of options occurs in some case (all-pairs testing), among them every kernel,
+// The list of cases for passes: every pair of options occurs in some case (all-pairs testing), among them every method,
 // depth and normal format, projection convention, filter, size and kind of contents with every other.
 #pragma once
 
@@ -56,7 +56,7 @@ inline constexpr std::array<normal_choice, 5> normal_choices{ {
 
 inline constexpr std::array<std::pair<int, int>, 4> sizes{ { { 1, 1 }, { 1, 7 }, { 33, 17 }, { 64, 48 } } };
 
-// One option each: how many choices there are; of methods, those that all pairs are made of.
+// One option each.
 enum factor : std::size_t {
     of_depth,
     of_normals,
@@ -78,7 +78,7 @@ enum factor : std::size_t {
     of_background,
     factor_count,
 };
-inline constexpr std::array<std::uint32_t, factor_count> choices{ 6, 5, 4, 4, 3, 3, 3, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2 };
+inline constexpr std::array<std::uint32_t, factor_count> choices{ 6, 5, 4, 4, 4, 3, 3, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2 };
 using choice = std::array<std::uint32_t, factor_count>;
 
 namespace detail {
@@ -134,7 +134,7 @@ private:
 
 } // namespace detail
 
-// All pairs of choices, then every third case once more with the method `bitmask`.
+// All pairs of choices.
 // Greedy: each case starts from a random draw and takes, option by option, the choice that closes most open pairs.
 inline std::vector<choice> all_pairs()
 {
@@ -161,11 +161,6 @@ inline std::vector<choice> all_pairs()
             open.close(c);
             cases.push_back(c);
         }
-    }
-    for (std::size_t i = 0, pairs = cases.size(); i < pairs; i += 3) {
-        choice sliced = cases[i];
-        sliced[of_method] = static_cast<std::uint32_t>(method::bitmask);
-        cases.push_back(sliced);
     }
     return cases;
 }

@@ -37,7 +37,7 @@ AO_PASS uint ao_blocked_sectors(ao_occlusion_constants c, ao_slice_walk w, ao_sl
     AO_PRECISE real last_row = c.height - real(0.5);
     ivec2 texel = ivec2(integer(min(max(column, real(0.5)), last_column)), integer(min(max(row, real(0.5)), last_row)));
     real surface = ao_load_depth(texel);
-    mask seen = surface > real(0) && surface < c.background;
+    mask seen = ao_is_surface(surface, c.background);
     real depth = mix(real(1), surface, seen);
 
     AO_PRECISE real offset_x = real(texel.x - pixel.x) * c.projection.slope_x;
@@ -85,7 +85,7 @@ struct ao_bitmask_result {
 AO_PASS ao_bitmask_result ao_bitmask_pass(ao_occlusion_constants c, ivec2 pixel)
 {
     real stored = ao_load_depth(pixel);
-    mask foreground = stored > real(0) && stored < c.background;
+    mask foreground = ao_is_surface(stored, c.background);
     real d = mix(real(1), stored, foreground);
 
     AO_PRECISE vec2 centre = vec2(real(pixel.x) + real(0.5), real(pixel.y) + real(0.5));

@@ -12,8 +12,8 @@ AO_PASS vec3 ao_surface_step(ao_projection p, vec2 size, ivec2 pixel, vec3 posit
     mask has_behind = behind.x >= integer(0) && behind.y >= integer(0);
     real depth_ahead = ao_load_depth(ivec2(mix(pixel.x, ahead.x, has_ahead), mix(pixel.y, ahead.y, has_ahead)));
     real depth_behind = ao_load_depth(ivec2(mix(pixel.x, behind.x, has_behind), mix(pixel.y, behind.y, has_behind)));
-    mask usable_ahead = has_ahead && depth_ahead > real(0) && depth_ahead < real(1e30);
-    mask usable_behind = has_behind && depth_behind > real(0) && depth_behind < real(1e30);
+    mask usable_ahead = has_ahead && ao_is_surface(depth_ahead, real(1e30));
+    mask usable_behind = has_behind && ao_is_surface(depth_behind, real(1e30));
 
     AO_PRECISE real gap_ahead = abs(depth_ahead + position.z);
     AO_PRECISE real gap_behind = abs(depth_behind + position.z);

@@ -10,7 +10,7 @@
 AO_PASS real ao_occlusion_pass(ao_occlusion_constants c, ivec2 pixel)
 {
     real stored = ao_load_depth(pixel);
-    mask foreground = stored > real(0) && stored < c.background;
+    mask foreground = ao_is_surface(stored, c.background);
     real d = mix(real(1), stored, foreground);
 
     AO_PRECISE vec2 centre = vec2(real(pixel.x) + real(0.5), real(pixel.y) + real(0.5));

@@ -65,7 +65,7 @@ AO_PASS ao_tap_seen ao_look(ao_tap_space t, ao_projection p, vec4 s, real bias, 
     ivec2 texel = ivec2(integer(column_inside), integer(row_inside));
     real surface = ao_load_depth(texel);
     AO_PRECISE real shift = t.gradient_x * (column_inside - column) + t.gradient_y * (row_inside - row);
-    mask hit = ahead && surface > real(0);
+    mask hit = ahead && ao_is_surface(surface, real(1e30));
     if (ao_parallel) {
         AO_PRECISE real behind = depth + shift - surface;
         hit = hit && behind >= bias;

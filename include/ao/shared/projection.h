@@ -50,11 +50,18 @@ struct ao_depth_decode {
     real reserved;
 };
 
+// Whether an eye depth is one of a surface. Depths below 1e-30 are none: the products of smaller ones are denormal, which some
+// stages of some drivers flush to 0 and others keep.
+AO_FN mask ao_is_surface(real depth, real background)
+{
+    return depth > real(1e-30) && depth < background;
+}
+
 // Eye depth, or 0 for background and for whatever is not a finite depth in front of the eye.
 AO_FN real ao_eye_depth(ao_depth_decode c, vec2 pixel, real stored, bool affine)
 {
     AO_PRECISE real denominator = stored * c.scale + c.offset + pixel.x * c.slope_x + pixel.y * c.slope_y;
     AO_PRECISE real d = affine ? denominator : c.numerator / denominator;
-    mask seen = stored != c.cleared && d > real(0) && d < c.background;
+    mask seen = stored != c.cleared && ao_is_surface(d, c.background);
     return mix(real(0), d, seen);
 }

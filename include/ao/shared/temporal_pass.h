@@ -76,7 +76,7 @@ AO_PASS ao_previous ao_previous_of(ao_temporal_constants c, ivec2 texel, vec3 po
         vec4 motion = ao_load_motion(texel);
         AO_PRECISE real x = real(texel.x) + real(0.5) + (motion.x * c.motion_scale_x + c.motion_offset_x);
         AO_PRECISE real y = real(texel.y) + real(0.5) + (motion.y * c.motion_scale_y + c.motion_offset_y);
-        mask known = motion.z > real(0) && motion.z < c.background;
+        mask known = ao_is_surface(motion.z, c.background);
         real d = mix(-was.z, motion.z, known);
         pixel = vec2(x, y);
         ahead = d > real(0);
@@ -207,7 +207,7 @@ AO_PASS ao_history ao_own_history(ao_temporal_constants c, ivec2 pixel)
 AO_PASS real ao_neighbour_change(ao_temporal_constants c, ao_tap_seen seen, vec3 position, vec3 normal, vec3 was, vec3 normal_was,
                                  real bias, real slope)
 {
-    mask surface = seen.surface > real(0) && seen.surface < c.background;
+    mask surface = ao_is_surface(seen.surface, c.background);
     AO_PRECISE vec2 centre = vec2(real(seen.texel.x) + real(0.5), real(seen.texel.y) + real(0.5));
     vec3 point = ao_view_point(c.projection, centre, mix(real(1), seen.surface, surface), ao_parallel);
     ao_previous before = ao_previous_of(c, seen.texel, point);
@@ -247,7 +247,7 @@ AO_PASS real ao_contribution_of(ao_temporal_constants c, ao_tap_seen seen, vec3 
     real blocked = mix(real(0), real(1), seen.hit);
     if (ao_contribution == ao_fox_compton) {
         // Fox and Compton 2008: the patch itself counts, by its cosine and distance.
-        mask surface = seen.surface > real(0) && seen.surface < c.background;
+        mask surface = ao_is_surface(seen.surface, c.background);
         AO_PRECISE vec2 centre = vec2(real(seen.texel.x) + real(0.5), real(seen.texel.y) + real(0.5));
         vec3 point = ao_view_point(c.projection, centre, mix(real(1), seen.surface, surface), ao_parallel);
         AO_PRECISE vec3 offset = vec3(point.x - position.x, point.y - position.y, point.z - position.z);
@@ -297,7 +297,7 @@ struct ao_temporal_pixel {
 AO_PASS ao_temporal_pixel ao_begin_pixel(ao_temporal_constants c, ivec2 pixel)
 {
     real stored = ao_load_depth(pixel);
-    mask foreground = stored > real(0) && stored < c.background;
+    mask foreground = ao_is_surface(stored, c.background);
     real d = mix(real(1), stored, foreground);
     vec2 size = vec2(c.width, c.height);
     AO_PRECISE vec2 centre = vec2(real(pixel.x) + real(0.5), real(pixel.y) + real(0.5));
