@@ -342,6 +342,13 @@ struct detail::bits_of<interval, integer_interval<std::int32_t>, integer_interva
     {
         return bits.is_point() ? interval(std::bit_cast<float>(static_cast<std::uint32_t>(bits.lo))) : interval::unknown();
     }
+    // Falls as x grows.
+    static constexpr interval inverse_root_guess(interval x)
+    {
+        using single = bits_of<float, std::int32_t, std::uint32_t>;
+        const bool usable = x.lo >= 0 && !x.is_unknown();
+        return usable ? interval(single::inverse_root_guess(x.hi), single::inverse_root_guess(x.lo)) : interval::unknown();
+    }
 
 private:
     static constexpr std::int64_t of(float x) { return bits_of<float, std::int32_t, std::uint32_t>::exponent(x); }

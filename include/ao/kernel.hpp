@@ -124,7 +124,7 @@ constexpr std::array<glm::vec4, max_taps> make_taps(const settings& s)
 }
 constexpr std::array<glm::vec2, tile_size * tile_size> make_tile(const settings& s)
 {
-    return s.method == method::bitmask ? make_slice_tile(s.seed) : make_rotation_tile(s.seed);
+    return s.method == method::bitmask ? make_slice_tile(s.seed, s.slices) : make_rotation_tile(s.seed);
 }
 
 } // namespace ao

@@ -99,6 +99,8 @@ struct bitmask_pass {
 #include "ao/shared/normal_pass.h"
 #include "ao/shared/occlusion_constants.h"
 
+#include "ao/shared/slice_taps.h"
+
 #include "ao/shared/bitmask_pass.h"
 };
 

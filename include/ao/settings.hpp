@@ -22,9 +22,9 @@ inline constexpr int max_filter = 31;
 
 struct settings {
     ao::method method = ao::method::hemisphere;
-    // 1 ... max_taps; cost is linear in it. Of bitmask: of all slices and both their sides, a multiple of 2 slices.
+    // 1 ... max_taps; cost is linear in it. Of bitmask: of all slices together, a multiple of them.
     int taps = 32;
-    int slices = 1;      // of bitmask, 1 ... max_slices; one with many steps serves better than many with few
+    int slices = 1;      // of bitmask, 1 ... max_slices: half planes through the view vector
     float radius = 1.0F; // scene units, (0, 1e15]
     // Least depth difference that occludes, of bitmask least height over the tangent plane; scene units, [0, 1e15]. Raise it
     // against acne; bitmask needs none where normals and depths fit.
@@ -49,8 +49,8 @@ constexpr std::optional<error> validate(const settings& s)
     if (s.slices < 1 || s.slices > max_slices) {
         return error(errc::invalid_settings, "slices must be 1 to 16");
     }
-    if (s.method == method::bitmask && s.taps % (2 * s.slices) != 0) {
-        return error(errc::invalid_settings, "taps must be a multiple of two per slice");
+    if (s.method == method::bitmask && s.taps % s.slices != 0) {
+        return error(errc::invalid_settings, "taps must be a multiple of the slices");
     }
     if (!(s.radius > 0 && s.radius <= limit)) {
         return error(errc::invalid_settings, "radius must be greater than 0 and at most 1e15");
@@ -68,19 +68,21 @@ constexpr std::optional<error> validate(const settings& s)
 }
 
 enum class preset {
-    low,    // 4 taps
-    medium, // 8
-    high,   // 18
-    ultra,  // 36
+    low,    // 4 taps of 1 slice
+    medium, // 8 of 1
+    high,   // 18 of 2
+    ultra,  // 36 of 3
 };
 
-// The settings to take where there is no reason for others: bitmask, one slice a pixel, denoised over 5x5 pixels.
+// The settings to take where there is no reason for others: bitmask, few slices a pixel, denoised over 5x5 pixels.
 constexpr settings settings_of(preset chosen, float radius = 1.0F)
 {
     constexpr int taps[] = { 4, 8, 18, 36 };
+    constexpr int slices[] = { 1, 1, 2, 3 };
     settings s;
     s.method = method::bitmask;
     s.taps = taps[static_cast<int>(chosen)];
+    s.slices = slices[static_cast<int>(chosen)];
     s.radius = radius;
     s.bias = 0;
     s.thickness = 1;

@@ -31,6 +31,7 @@ struct temporal_options {
     bool limit_thickness = false;
     int filter_radius = 0; // resolve: that of the filter behind it, or 0
     bool affine = false;   // linearize
+    int slice_taps = 1;    // of one slice (bitmask)
 
     friend constexpr bool operator==(const temporal_options&, const temporal_options&) = default;
 };
@@ -71,7 +72,8 @@ constexpr bool same_program(const temporal_plan& a, const temporal_plan& b)
     const facts& g = b.facts.frame;
     bool same = f.width == g.width && f.height == g.height && f.depth == g.depth && f.output_format == g.output_format &&
                 a.settings.period == b.settings.period && a.settings.density == b.settings.density &&
-                a.settings.seed == b.settings.seed && a.steps.size() == b.steps.size();
+                a.settings.seed == b.settings.seed && a.settings.slice_taps == b.settings.slice_taps &&
+                a.steps.size() == b.steps.size();
     for (std::size_t i = 0; same && i < a.steps.size(); ++i) {
         same = a.steps[i].type == b.steps[i].type && a.steps[i].options == b.steps[i].options;
     }
@@ -290,6 +292,7 @@ constexpr result<temporal_plan> make_temporal_plan(const temporal_settings& s, c
         o.normal_source = static_cast<int>(f.frame.normals);
         o.rotate_normals = f.frame.world_normals && f.frame.normals != normal_source::from_depth;
         o.limit_thickness = s.thickness <= std::numeric_limits<float>::max();
+        o.slice_taps = s.contribution == contribution_type::bitmask ? s.slice_taps : 1;
     }
     const int filter_radius = s.spatial > 0 ? s.filter / 2 : 0;
     add(temporal_pass_type::resolve).filter_radius = filter_radius;

@@ -27,6 +27,7 @@ struct temporal_pass {
     bool ao_rotate_normals = false;
     bool ao_parallel = false;
     bool ao_limit_thickness = false;
+    int ao_slice_taps = 1;
 
     constexpr real ao_load_depth(ivec2 pixel)
     {
@@ -56,6 +57,7 @@ struct temporal_pass {
     // clang-format off
 #include "ao/shared/normal_pass.h"
 #include "ao/shared/occlusion_tap.h"
+#include "ao/shared/slice_taps.h"
 #include "ao/shared/history_load.h"
 #include "ao/shared/temporal_pass.h"
     // clang-format on

@@ -15,15 +15,17 @@ namespace detail {
 using temporal_names = temporal_pass<float, no_resources>;
 }
 
-// What a sample contributes (systems.md B7).
+// What a sample contributes (systems.md B7), and `bitmask`, whose samples are the taps of whole slices (shared/slice_taps.h).
 enum class contribution_type {
     ritschel = detail::temporal_names::ao_ritschel, // offsets in the hemisphere, held against depth; fall-off by their density
     fox_compton = detail::temporal_names::ao_fox_compton, // surface patches around the pixel: strength cos / distance
+    bitmask = detail::temporal_names::ao_bitmask,         // sectors of a slice that its taps block
 };
 
 // Where offsets lie. hemisphere: (14) corrected, cosine-weighted directions, linear in the distance; for ritschel.
-// disc_area and disc_linear: (13) with r = sqrt(z) and r = z; for fox_compton.
-enum class sample_density { hemisphere, disc_area, disc_linear };
+// disc_area and disc_linear: (13) with r = sqrt(z) and r = z; for fox_compton. slices: for bitmask, azimuths by Halton's
+// sequence.
+enum class sample_density { hemisphere, disc_area, disc_linear, slices };
 
 // What a change in the neighbourhood of a pixel does to what its history weighs.
 enum class invalidation_type {
@@ -43,7 +45,7 @@ struct temporal_settings {
     sample_density density = sample_density::hemisphere;
     float radius = 1.0F;    // scene units, (0, 1e15]
     float bias = 0.02F;     // scene units, [0, 1e15]
-    float thickness = 2.0F; // radii, as in ao::settings; ritschel only
+    float thickness = 2.0F; // radii, as in ao::settings; ritschel and bitmask
     int period = 4096;      // samples before a pixel's sequence starts again, 1 to 65536
     int first_samples = 32; // k1, 1 to period: a frame's samples while conv < adaptive
     int later_samples = 8;  // k2, 1 to period
@@ -63,6 +65,7 @@ struct temporal_settings {
     bool cubic = true;           // histories between pixels by Catmull-Rom, else bilinear
     history_format format = history_format::precise;
     std::uint32_t seed = 1; // of the rotations
+    int slice_taps = 8;     // bitmask: taps of one slice, 1 to max_taps; first_samples, later_samples and period are multiples
     // fox_compton:
     float strength = 0.25F;       // radii: what a patch at distance d and cosine 1 darkens is strength / d, (0, 1e6]
     float least_distance = 0.05F; // radii, (0, 1]
@@ -93,12 +96,14 @@ constexpr std::optional<error> validate(const temporal_settings& s)
     const auto fail = [](const char* why) { return error(errc::invalid_settings, why); };
     const auto within = [](float x, float low, float high) { return x >= low && x <= high; };
     constexpr float limit = 1e15F;
-    if (s.contribution != contribution_type::ritschel && s.contribution != contribution_type::fox_compton) {
+    if (s.contribution < contribution_type::ritschel || s.contribution > contribution_type::bitmask) {
         return fail("unknown contribution");
     }
-    if ((s.contribution == contribution_type::ritschel) != (s.density == sample_density::hemisphere) ||
-        s.density > sample_density::disc_linear || s.density < sample_density::hemisphere) {
-        return fail("ritschel takes the hemisphere density, fox_compton one of the discs");
+    const bool disc = s.density == sample_density::disc_area || s.density == sample_density::disc_linear;
+    if ((s.contribution == contribution_type::ritschel && s.density != sample_density::hemisphere) ||
+        (s.contribution == contribution_type::bitmask && s.density != sample_density::slices) ||
+        (s.contribution == contribution_type::fox_compton && !disc)) {
+        return fail("ritschel takes the hemisphere density, fox_compton one of the discs, bitmask slices");
     }
     if (!(s.radius > 0 && s.radius <= limit)) {
         return fail("radius must be greater than 0 and at most 1e15");
@@ -114,6 +119,14 @@ constexpr std::optional<error> validate(const temporal_settings& s)
     }
     if (s.first_samples < 1 || s.first_samples > s.period || s.later_samples < 1 || s.later_samples > s.period) {
         return fail("samples of a frame must be 1 to the period");
+    }
+    if (s.contribution == contribution_type::bitmask) {
+        if (s.slice_taps < 1 || s.slice_taps > max_taps) {
+            return fail("taps of a slice must be 1 to 1024");
+        }
+        if (s.period % s.slice_taps != 0 || s.first_samples % s.slice_taps != 0 || s.later_samples % s.slice_taps != 0) {
+            return fail("samples of a frame and the period must be multiples of a slice's taps");
+        }
     }
     if (s.most_weight < 1 || s.most_weight > (s.format == history_format::precise ? 1 << 20 : 4095)) {
         return fail("greatest weight must be 1 to 4095, or to 1048576 in precise histories");
@@ -147,6 +160,28 @@ constexpr std::optional<error> validate(const temporal_settings& s)
         return fail("strength, least distance and largest contribution must be greater than 0 and at most 1e6, 1 and 1");
     }
     return std::nullopt;
+}
+
+// The same slices in every frame, turned anew: what converges to the limit of many slices where nothing moves.
+// Precondition: `still` is valid, with the method `bitmask`.
+constexpr temporal_settings temporal_settings_of(const settings& still)
+{
+    temporal_settings s;
+    s.contribution = contribution_type::bitmask;
+    s.density = sample_density::slices;
+    s.radius = still.radius;
+    s.bias = still.bias;
+    s.thickness = still.thickness;
+    s.filter = still.filter;
+    s.seed = still.seed;
+    s.slice_taps = still.taps / still.slices;
+    s.period = 512 * s.slice_taps;
+    s.first_samples = still.taps;
+    s.later_samples = still.taps;
+    s.most_weight = 64 * still.taps;
+    s.moving_weight = 20 * still.taps;
+    s.clamped_weight = 6 * still.taps;
+    return s;
 }
 
 // The same settings; does not compile where they are not valid.

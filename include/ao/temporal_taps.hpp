@@ -33,14 +33,37 @@ constexpr glm::vec4 temporal_tap(sample_density density, std::uint32_t index)
     return glm::vec4(disc_offset(u, v, density == sample_density::disc_area), 0.0F, 0.0F);
 }
 
+// Tap `index` of slices of `taps` taps each, as in ao/slices.hpp: azimuths and places in the steps by Halton's sequence over the
+// slices.
+constexpr glm::vec4 temporal_slice_tap(int taps, std::uint32_t index)
+{
+    using reals = math<double>;
+    const auto each = static_cast<std::uint32_t>(taps);
+    const std::uint32_t slice = index / each;
+    const double angle = 2 * detail::pi * reals::ao_radical_inverse(2, slice);
+    return slice_tap(angle, index % each, each, reals::ao_radical_inverse(3, slice));
+}
+
+// Sample `index` of the settings' sequence.
+constexpr glm::vec4 temporal_tap(const temporal_settings& s, std::uint32_t index)
+{
+    return s.density == sample_density::slices ? temporal_slice_tap(s.slice_taps, index) : temporal_tap(s.density, index);
+}
+
 // All `period` of them.
 inline std::vector<glm::vec4> make_temporal_taps(const temporal_settings& s)
 {
     std::vector<glm::vec4> taps(static_cast<std::size_t>(s.period));
     for (std::size_t i = 0; i < taps.size(); ++i) {
-        taps[i] = temporal_tap(s.density, static_cast<std::uint32_t>(i));
+        taps[i] = temporal_tap(s, static_cast<std::uint32_t>(i));
     }
     return taps;
+}
+
+// What turns the pattern from pixel to pixel.
+constexpr auto make_tile(const temporal_settings& s)
+{
+    return s.density == sample_density::slices ? make_slice_tile(s.seed, 1) : make_rotation_tile(s.seed);
 }
 
 } // namespace ao

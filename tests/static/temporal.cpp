@@ -98,6 +98,21 @@ static_assert(refuses({ .most_weight = 0 }) && refuses({ .most_weight = std::num
 static_assert(refuses({ .period = 16 }) && refuses({ .period = 65537 }) && refuses({ .later_samples = 4097 }));
 static_assert(refuses({ .density = ao::sample_density::disc_area }));
 static_assert(refuses({ .contribution = ao::contribution_type::fox_compton }));
+static_assert(refuses({ .contribution = ao::contribution_type::bitmask }));
+constexpr ao::temporal_settings slices(int taps, int first, int period)
+{
+    ao::temporal_settings s = ao::temporal_settings_of(ao::settings_of(ao::preset::medium));
+    s.slice_taps = taps;
+    s.first_samples = first;
+    s.later_samples = 3 * taps;
+    s.period = period;
+    return s;
+}
+static_assert(!refuses(slices(8, 16, 64)) && !refuses(slices(3, 6, 33)));
+static_assert(refuses(slices(1025, 1025, 4100)) && refuses(slices(0, 8, 64)) && refuses(slices(8, 12, 64)) &&
+              refuses(slices(8, 16, 60)));
+static_assert(!refuses(ao::temporal_settings_of(ao::settings_of(ao::preset::low))) &&
+              !refuses(ao::temporal_settings_of(ao::settings_of(ao::preset::ultra))));
 static_assert(refuses({ .tolerance = nan }) && refuses({ .smoothness = -1 }) && refuses({ .filter = 4 }));
 
 } // namespace

@@ -96,6 +96,28 @@ inline std::vector<temporal_case> temporal_cases()
     parallel.settings.contribution = ao::contribution_type::fox_compton;
     parallel.settings.density = ao::sample_density::disc_area;
 
+    const auto slices = [](temporal_case& c, ao::preset chosen) {
+        const ao::temporal_settings before = c.settings;
+        c.settings = ao::temporal_settings_of(ao::settings_of(chosen, before.radius));
+        c.settings.format = before.format;
+    };
+    slices(add(base_case("slices")), ao::preset::medium);
+    temporal_case& low = add(base_case("slices of 4 taps, several a frame, packed, a moving camera", false));
+    slices(low, ao::preset::low);
+    low.settings.format = ao::history_format::packed;
+    low.settings.first_samples = 12;
+    low.settings.later_samples = 8;
+    low.settings.period = 20;
+    temporal_case& spoilt_slices = add(base_case("slices, poison, invalidation by a clamp, no thickness"));
+    slices(spoilt_slices, ao::preset::medium);
+    spoilt_slices.poison = true;
+    spoilt_slices.settings.invalidation = ao::invalidation_type::clamp;
+    spoilt_slices.settings.thickness = std::numeric_limits<float>::infinity();
+    temporal_case& flat = add(base_case("slices, parallel projection, normals from depth", false));
+    slices(flat, ao::preset::medium);
+    flat.facts.frame.parallel = true;
+    flat.facts.frame.normals = ao::normal_source::from_depth;
+
     add(base_case("one pixel", true, 1, 1));
     add(base_case("7x5", false, 7, 5));
     add(base_case("33x17", true, 33, 17)).settings.format = ao::history_format::packed;

@@ -220,7 +220,8 @@ options_of_pass options_of(const temporal_options& o)
              { "ao_parallel", o.parallel },
              { "ao_limit_thickness", o.limit_thickness },
              { "ao_filter_radius", number(o.filter_radius) },
-             { "ao_affine", o.affine } };
+             { "ao_affine", o.affine },
+             { "ao_slice_taps", number(o.slice_taps) } };
 }
 
 std::span<const std::uint32_t> shader_of(const ao::pass& each)

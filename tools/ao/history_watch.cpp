@@ -98,8 +98,9 @@ std::vector<history_watch::pixel_facts> history_watch::accumulated(const tempora
     const int width = plan_.facts.frame.width;
     std::vector<pixel_facts> pixels(now.visibility.size());
     tbb::parallel_for(tbb::blocked_range<int>(0, plan_.facts.frame.height), [&](const tbb::blocked_range<int>& rows) {
-        body run{ resources{ this }, o.most_samples, o.contribution,  o.history_format, o.invalidation, o.reproject,
-                  o.use_motion,      o.cubic,        o.normal_source, o.rotate_normals, o.parallel,     o.limit_thickness };
+        body run{ resources{ this }, o.most_samples,    o.contribution, o.history_format, o.invalidation,
+                  o.reproject,       o.use_motion,      o.cubic,        o.normal_source,  o.rotate_normals,
+                  o.parallel,        o.limit_thickness, o.slice_taps };
         for (int y = rows.begin(); y != rows.end(); ++y)
             for (int x = 0; x < width; ++x)
                 pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] =

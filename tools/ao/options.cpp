@@ -152,7 +152,7 @@ void add_render_options(CLI::App& command, render_arguments& a)
     command.add_option("--method", a.method, "box|hemisphere|halton|bitmask; hemisphere without it");
     command.add_option("--preset", a.preset, "of bitmask: low|medium|high|ultra, which sets what is not given; high without it");
     command.add_option("--taps", a.taps, "per pixel, 1 to 1024");
-    command.add_option("--slices", a.slices, "of bitmask, 1 to 16: taps are of all slices and both their sides");
+    command.add_option("--slices", a.slices, "of bitmask, 1 to 16: taps are of all slices together");
     command.add_option("--radius", a.radius, "scene units");
     command.add_option("--bias", a.bias, "scene units");
     command.add_option("--thickness", a.thickness, "in radii, or 'infinite'");

@@ -91,7 +91,7 @@ const char* normals_text(const facts& f)
 
 const char* contribution_text(contribution_type c)
 {
-    return c == contribution_type::ritschel ? "ritschel" : "fox-compton";
+    return c == contribution_type::ritschel ? "ritschel" : c == contribution_type::bitmask ? "bitmask" : "fox-compton";
 }
 
 const char* history_text(history_format f)

@@ -18,20 +18,21 @@ void add_temporal_options(CLI::App& command, temporal_arguments& a)
     add("--motion", a.motion, "static|orbit|pan|cut|file of camera and objects, for --temporal (docs/scenes.md)");
     add("--samples", a.samples, "K1,K2 of --temporal: per pixel and frame while little is known, and later; without it 32,8");
     add("--most-weight", a.most_weight, "of --temporal: samples that a history stands for at most");
-    add("--contribution", a.contribution, "of --temporal: ritschel|fox-compton");
+    add("--contribution", a.contribution, "of --temporal: ritschel|fox-compton, or bitmask, which --preset stands for");
     add("--history", a.history, "of --temporal: precise|packed|half-stalls");
     add("--invalidation", a.invalidation, "of --temporal: none|smooth|clamp, where a neighbourhood changed");
     add("--smoothness", a.smoothness, "of --temporal: how fast smooth invalidation forgets");
     // These are the other effect's, or read its result.
-    for (const char* name : { "--method", "--preset", "--taps", "--slices", "--shade" })
+    for (const char* name : { "--method", "--taps", "--slices", "--shade" })
         temporal->excludes(command.get_option(name));
 }
 
 temporal_choice check_temporal(const temporal_arguments& a, const ao::settings& common)
 {
-    static constexpr std::array<std::pair<std::string_view, contribution_type>, 2> contributions{ {
+    static constexpr std::array<std::pair<std::string_view, contribution_type>, 3> contributions{ {
         { "ritschel", contribution_type::ritschel },
         { "fox-compton", contribution_type::fox_compton },
+        { "bitmask", contribution_type::bitmask },
     } };
     static constexpr std::array<std::pair<std::string_view, history_format>, 3> formats{ {
         { "precise", history_format::precise },
@@ -45,7 +46,14 @@ temporal_choice check_temporal(const temporal_arguments& a, const ao::settings& 
     } };
     temporal_choice t{ a.motion, {} };
     ao::temporal_settings& s = t.settings;
-    s.contribution = choose("--contribution", a.contribution, contributions);
+    const bool slices = common.method == method::bitmask;
+    if (slices)
+        s = temporal_settings_of(common);
+    if (!a.contribution.empty()) {
+        s.contribution = choose("--contribution", a.contribution, contributions);
+        if (slices != (s.contribution == contribution_type::bitmask))
+            throw error(slices ? "--preset: of --contribution bitmask" : "--contribution bitmask: takes a --preset");
+    }
     if (s.contribution == contribution_type::fox_compton)
         s.density = sample_density::disc_area;
     s.format = choose("--history", a.history, formats);
@@ -56,7 +64,7 @@ temporal_choice check_temporal(const temporal_arguments& a, const ao::settings& 
     s.filter = common.filter;
     s.seed = common.seed;
     s.smoothness = static_cast<float>(a.smoothness);
-    s.most_weight = a.most_weight;
+    s.most_weight = a.most_weight.value_or(s.most_weight);
     // So that a small --most-weight needs no option beside it.
     s.clamped_weight = std::min(s.clamped_weight, std::max(s.most_weight, 0));
     if (!a.samples.empty()) {

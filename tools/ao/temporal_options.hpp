@@ -2,6 +2,7 @@
 
 #include "ao/temporal_settings.hpp"
 
+#include <optional>
 #include <string>
 
 namespace CLI {
@@ -19,8 +20,8 @@ struct temporal_choice {
 // What the options are parsed into.
 struct temporal_arguments {
     bool wanted = false;
-    std::string motion = "static", samples, contribution = "ritschel", history = "precise", invalidation = "smooth";
-    int most_weight = temporal_settings{}.most_weight;
+    std::string motion = "static", samples, contribution, history = "precise", invalidation = "smooth";
+    std::optional<int> most_weight;
     double smoothness = static_cast<double>(temporal_settings{}.smoothness);
 };
 

@@ -128,7 +128,7 @@ void backend_run::measure(temporal_frame_outcome& out, const temporal_frames& al
         out.error = error_against(run_.visibility, all.truth()->a, all.truth()->b, compared(watch_->surface(), all.rays()));
 }
 
-// The ordinary effect with as many taps as a pixel that is known gets new samples.
+// The ordinary effect with as many taps as a pixel that is known gets new samples; of bitmask with its denoiser.
 class single_frames {
 public:
     single_frames(const render_options& o, const std::string& backend)
@@ -137,9 +137,11 @@ public:
     {
         const temporal_settings& s = o.temporal->settings;
         settings_ = o.settings;
-        settings_.method = method::halton; // the density of temporal samples
-        settings_.taps = std::min(s.later_samples, max_taps);
-        settings_.filter = 1;
+        if (s.contribution == contribution_type::ritschel) {
+            settings_.method = method::halton; // the density of temporal samples
+            settings_.taps = std::min(s.later_samples, max_taps);
+            settings_.filter = 1;
+        }
         facts_ = o.inputs;
     }
 
@@ -192,7 +194,7 @@ temporal_outcomes run_temporal(const render_options& o, temporal_frames& frames)
         if (wanted)
             runs.push_back(make_run(o, backend));
     std::optional<single_frames> alone;
-    if (o.reference > 0 && o.temporal->settings.contribution == contribution_type::ritschel)
+    if (o.reference > 0 && o.temporal->settings.contribution != contribution_type::fox_compton)
         alone.emplace(o, o.cpu ? "cpu" : o.gl ? "gl" : "vk");
 
     temporal_outcomes all;

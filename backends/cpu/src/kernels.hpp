@@ -65,7 +65,7 @@ using kernel = void (*)(const pass_arguments&, const tile&);
 using temporal_kernel = void (*)(const temporal_arguments&, const tile&);
 
 struct accumulate_table {
-    temporal_kernel of[2][2]; // [fox_compton][precise history]
+    temporal_kernel of[3][2]; // [contribution_type][precise history]
 };
 
 struct temporal_kernel_table {

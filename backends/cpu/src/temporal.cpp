@@ -104,7 +104,7 @@ result<temporal_program> temporal::prepare_temporal(const temporal_plan& p)
     made->period = static_cast<std::size_t>(p.settings.period);
 
     made->rotation = detail::allocate(2 * tile_size * tile_size);
-    made->taps = detail::allocate(3 * made->period);
+    made->taps = detail::allocate(4 * made->period);
     bool complete = made->rotation && made->taps;
     if (p.linearize) {
         made->linear_depth = detail::allocate(padded);
@@ -128,10 +128,10 @@ result<temporal_program> temporal::prepare_temporal(const temporal_plan& p)
     for (const detail::aligned_words& history : made->histories) {
         std::fill_n(history.get(), made->history_size(), 0U);
     }
-    detail::fill_rotation(made->rotation.get(), make_rotation_tile(p.settings.seed));
+    detail::fill_rotation(made->rotation.get(), make_tile(p.settings));
     for (std::size_t i = 0; i < made->period; ++i) {
-        const glm::vec4 tap = temporal_tap(p.settings.density, static_cast<std::uint32_t>(i));
-        for (std::size_t component = 0; component < 3; ++component) {
+        const glm::vec4 tap = temporal_tap(p.settings, static_cast<std::uint32_t>(i));
+        for (std::size_t component = 0; component < 4; ++component) {
             made->taps[component * made->period + i] = tap[static_cast<glm::length_t>(component)];
         }
     }
@@ -217,8 +217,7 @@ void temporal::record_temporal(commands, temporal_program& program, temporal_bin
     case temporal_pass_type::accumulate: {
         const int motion = step.options.reproject ? (step.options.cubic ? 2 : 1) : 0;
         const std::size_t precise = p.settings.format == history_format::precise ? 1 : 0;
-        const bool patches = step.options.contribution == static_cast<int>(contribution_type::fox_compton);
-        return machine_->run(kernels.accumulate[motion].of[patches ? 1 : 0][precise], a);
+        return machine_->run(kernels.accumulate[motion].of[step.options.contribution][precise], a);
     }
     case temporal_pass_type::filter_rows:
         return machine_->run(kernels.filter_rows, a);

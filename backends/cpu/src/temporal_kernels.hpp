@@ -25,13 +25,13 @@ struct temporal_kernels {
     }
 
     // Options that are asked per tap or texel are constants.
-    template <bool Reproject, bool Cubic, bool Patches, bool Precise>
+    template <bool Reproject, bool Cubic, int Contribution, bool Precise>
     AO_CPU_KERNEL static void accumulate(const temporal_arguments& a, const tile& t)
     {
         temporal_pass<Real, temporal_resources<Real>> pass{};
         const temporal_options& o = a.options;
         pass.ao_most_samples = o.most_samples;
-        pass.ao_contribution = Patches ? pass.ao_fox_compton : pass.ao_ritschel;
+        pass.ao_contribution = Contribution;
         pass.ao_history_format = Precise ? pass.ao_history_precise : o.history_format;
         pass.ao_invalidation = o.invalidation;
         pass.ao_reproject = Reproject;
@@ -41,6 +41,7 @@ struct temporal_kernels {
         pass.ao_rotate_normals = o.rotate_normals;
         pass.ao_parallel = o.parallel;
         pass.ao_limit_thickness = o.limit_thickness;
+        pass.ao_slice_taps = o.slice_taps;
         pass.resources.eye_depth = reader<Real>(a.depth);
         pass.resources.normals = reader<Real>(a.normal);
         pass.resources.motions = reader<Real>(a.motion);
@@ -49,6 +50,7 @@ struct temporal_kernels {
         pass.resources.last = history(a);
         pass.resources.taps = reinterpret_cast<const std::byte*>(a.taps);
         pass.resources.tap_bytes = 4 * a.tap_plane;
+        pass.resources.slices = Contribution == pass.ao_bitmask;
         const auto c = pixels::template constants<typename decltype(pass)::ao_temporal_constants>(a);
         pixels::for_blocks(t, [&](ivec2 pixel, int x, int y, int count) {
             const auto words = pass.ao_packed_history(pass.ao_accumulate_pass(c, pixel), pass.ao_history_format);
@@ -68,8 +70,9 @@ struct temporal_kernels {
 
     template <bool Reproject, bool Cubic>
     static constexpr accumulate_table accumulate_kernels{
-        { { accumulate<Reproject, Cubic, false, false>, accumulate<Reproject, Cubic, false, true> },
-          { accumulate<Reproject, Cubic, true, false>, accumulate<Reproject, Cubic, true, true> } }
+        { { accumulate<Reproject, Cubic, 0, false>, accumulate<Reproject, Cubic, 0, true> },
+          { accumulate<Reproject, Cubic, 1, false>, accumulate<Reproject, Cubic, 1, true> },
+          { accumulate<Reproject, Cubic, 2, false>, accumulate<Reproject, Cubic, 2, true> } }
     };
 
     using filter_pass = temporal_filter_pass<Real, temporal_filter_resources<Real>>;

@@ -46,8 +46,9 @@ struct temporal_resources {
     reader<Real> rotation_x;
     reader<Real> rotation_y;
     history_reader<Real> last;
-    const std::byte* taps = nullptr; // all x, then all y, then all z
+    const std::byte* taps = nullptr; // all x, then all y, z and w
     std::size_t tap_bytes = 0;       // of each
+    bool slices = false;             // w is more than 0
 
     Real depth(ivec2 pixel) const { return eye_depth.gathered(pixel); }
     vec4 normal(ivec2 pixel) const { return normals.normal(pixel); }
@@ -71,12 +72,12 @@ struct temporal_resources {
                 std::memcpy(&x, at + component * tap_bytes, 4);
                 return Real(x);
             };
-            return vec4(each(0), each(1), each(2), Real(0));
+            return vec4(each(0), each(1), each(2), slices ? each(3) : Real(0));
         }
         const auto each = [&](std::size_t component) {
             return memory::as_real(memory::gather(taps + component * tap_bytes, index));
         };
-        return vec4(each(0), each(1), each(2), Real(0));
+        return vec4(each(0), each(1), each(2), slices ? each(3) : Real(0));
     }
 };
 

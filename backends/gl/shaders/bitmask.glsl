@@ -12,6 +12,7 @@ layout(constant_id = 11) const int ao_slice_count = 1;
 #include "occlusion_resources.glsl"
 #include "ao/shared/normal_pass.h"
 #include "ao/shared/occlusion_constants.h"
+#include "ao/shared/slice_taps.h"
 #include "ao/shared/bitmask_pass.h"
 
 layout(std140, binding = 0) uniform ao_constants_block { ao_occlusion_constants ao_constants; };

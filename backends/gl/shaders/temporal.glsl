@@ -2,7 +2,7 @@
 #include "ao/shared/prelude.glsl"
 #include "ao/shared/functions.h"
 
-layout(local_size_x_id = 13, local_size_y_id = 14) in;
+layout(local_size_x_id = 14, local_size_y_id = 15) in;
 layout(constant_id = 2) const int ao_history_format = 0;
 layout(constant_id = 9) const bool ao_parallel = false;
 

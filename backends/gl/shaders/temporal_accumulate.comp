@@ -11,6 +11,7 @@ layout(constant_id = 6) const bool ao_cubic = false;
 layout(constant_id = 7) const int ao_normal_source = 0;
 layout(constant_id = 8) const bool ao_rotate_normals = false;
 layout(constant_id = 10) const bool ao_limit_thickness = false;
+layout(constant_id = 13) const int ao_slice_taps = 1;
 
 layout(binding = 1) uniform sampler2D ao_normals;
 layout(binding = 2) uniform sampler2D ao_motions;
@@ -40,6 +41,7 @@ vec4 ao_load_tap(uint index)
 
 #include "ao/shared/normal_pass.h"
 #include "ao/shared/occlusion_tap.h"
+#include "ao/shared/slice_taps.h"
 #include "ao/shared/temporal_pass.h"
 
 layout(std140, binding = 0) uniform ao_constants_block { ao_temporal_constants ao_constants; };

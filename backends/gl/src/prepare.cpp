@@ -49,11 +49,6 @@ object make_tile_texture(const functions& gl, std::span<const glm::vec2> tile)
     return rotations;
 }
 
-object make_rotations(const functions& gl, std::uint32_t seed)
-{
-    return make_tile_texture(gl, make_rotation_tile(seed));
-}
-
 result<object> make_framebuffer(const functions& gl, GLuint texture)
 {
     object framebuffer = make_object(gl, object_type::framebuffer, gl.CreateFramebuffers);

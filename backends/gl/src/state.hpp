@@ -87,9 +87,6 @@ object make_sampler(const functions& gl);
 // A tile of tile_size squared texels, GL_RG32F.
 object make_tile_texture(const functions& gl, std::span<const glm::vec2> tile);
 
-// The tile of rotations that a seed gives.
-object make_rotations(const functions& gl, std::uint32_t seed);
-
 // A framebuffer with level 0 of a texture as its only color.
 result<object> make_framebuffer(const functions& gl, GLuint texture);
 

@@ -47,7 +47,7 @@ result<object> link_step(const functions& gl, const options& chosen, const tempo
         same.options.affine = o.affine;
         return link_pass(gl, chosen, same, f.depth == depth_source::position);
     }
-    const std::array<GLuint, 15> values{ static_cast<GLuint>(o.most_samples),
+    const std::array<GLuint, 16> values{ static_cast<GLuint>(o.most_samples),
                                          static_cast<GLuint>(o.contribution),
                                          static_cast<GLuint>(o.history_format),
                                          static_cast<GLuint>(o.invalidation),
@@ -60,6 +60,7 @@ result<object> link_step(const functions& gl, const options& chosen, const tempo
                                          o.limit_thickness,
                                          static_cast<GLuint>(o.filter_radius),
                                          o.affine,
+                                         static_cast<GLuint>(o.slice_taps),
                                          chosen.group_width,
                                          chosen.group_height };
     const source from = source_of(step.type);
@@ -127,7 +128,7 @@ result<temporal_program> temporal::prepare_temporal(const temporal_plan& p)
     state->constants = make_object(gl, object_type::buffer, gl.CreateBuffers);
     gl.NamedBufferStorage(state->constants.name(), temporal_stride * static_cast<GLsizeiptr>(p.steps.size()), nullptr,
                           GL_DYNAMIC_STORAGE_BIT);
-    state->rotations = make_rotations(gl, p.settings.seed);
+    state->rotations = make_tile_texture(gl, make_tile(p.settings));
     state->sampler = make_sampler(gl);
     if (p.linearize) {
         state->linear = make_texture(gl, GL_R32F, f.width, f.height);

@@ -11,6 +11,7 @@
 #include "resources.glsl"
 #include "ao/shared/normal_pass.h"
 #include "ao/shared/occlusion_constants.h"
+#include "ao/shared/slice_taps.h"
 #include "ao/shared/bitmask_pass.h"
 
 layout(push_constant) uniform pass_constants { ao_occlusion_constants constants; };

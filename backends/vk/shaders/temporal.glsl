@@ -4,7 +4,7 @@
 #include "ao/shared/prelude.glsl"
 #include "ao/shared/functions.h"
 
-layout(local_size_x_id = 13, local_size_y_id = 14) in;
+layout(local_size_x_id = 14, local_size_y_id = 15) in;
 
 layout(constant_id = 0) const int ao_most_samples = 1;
 layout(constant_id = 1) const int ao_contribution = 0;
@@ -17,6 +17,7 @@ layout(constant_id = 7) const int ao_normal_source = 0;
 layout(constant_id = 8) const bool ao_rotate_normals = false;
 layout(constant_id = 9) const bool ao_parallel = false;
 layout(constant_id = 10) const bool ao_limit_thickness = false;
+layout(constant_id = 13) const int ao_slice_taps = 1;
 layout(constant_id = 11) const int ao_filter_radius = 0;
 
 #ifdef AO_SOFTWARE

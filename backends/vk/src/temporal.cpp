@@ -115,7 +115,7 @@ std::optional<error> make_texels(const device& d, const buffer& from, VkFormat f
 
 std::optional<error> make_tables(const device& d, const temporal_plan& p, temporal_program_state& made)
 {
-    const auto tile = make_rotation_tile(p.settings.seed);
+    const auto tile = make_tile(p.settings);
     const std::vector<glm::vec4> taps = make_temporal_taps(p.settings);
     // A multiple of every offset alignment that Vulkan allows.
     static_assert(sizeof(tile) % 256 == 0);
@@ -231,7 +231,7 @@ result<owned<VkPipeline>> make_pipeline(const device& d, const temporal_plan& p,
     if (step.type == temporal_pass_type::linearize) {
         return make_linearize(d, o.affine, p.facts.frame.depth == depth_source::position, layout);
     }
-    const std::array<specialisation_value, 14> values{ { { 0, static_cast<std::uint32_t>(o.most_samples) },
+    const std::array<specialisation_value, 15> values{ { { 0, static_cast<std::uint32_t>(o.most_samples) },
                                                          { 1, static_cast<std::uint32_t>(o.contribution) },
                                                          { 2, static_cast<std::uint32_t>(o.history_format) },
                                                          { 3, static_cast<std::uint32_t>(o.invalidation) },
@@ -243,8 +243,9 @@ result<owned<VkPipeline>> make_pipeline(const device& d, const temporal_plan& p,
                                                          { 9, o.parallel },
                                                          { 10, o.limit_thickness },
                                                          { 11, static_cast<std::uint32_t>(o.filter_radius) },
-                                                         { 13, d.host.group.x },
-                                                         { 14, d.host.group.y } } };
+                                                         { 13, static_cast<std::uint32_t>(o.slice_taps) },
+                                                         { 14, d.host.group.x },
+                                                         { 15, d.host.group.y } } };
     return make_compute_pipeline(d, shader_of(d, step.type, p.facts.frame.output_format == pixel_format::r8), values, layout);
 }
 

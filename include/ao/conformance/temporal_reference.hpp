@@ -28,7 +28,7 @@ public:
           linear_(p.facts.frame.width, p.facts.frame.height),
           rows_(linear_),
           visibility_(linear_),
-          tile_(make_rotation_tile(p.settings.seed)),
+          tile_(make_tile(p.settings)),
           taps_(make_temporal_taps(p.settings))
     {
         for (auto& history : histories_) {
@@ -121,8 +121,8 @@ private:
         }
         if (step.type == temporal_pass_type::accumulate) {
             using body = temporal_pass<Real, resources>;
-            body run{ read,         o.most_samples, o.contribution,  o.history_format, o.invalidation, o.reproject,
-                      o.use_motion, o.cubic,        o.normal_source, o.rotate_normals, o.parallel,     o.limit_thickness };
+            body run{ read,    o.most_samples,  o.contribution,   o.history_format, o.invalidation,    o.reproject, o.use_motion,
+                      o.cubic, o.normal_source, o.rotate_normals, o.parallel,       o.limit_thickness, o.slice_taps };
             const auto c = convert_constants<typename body::ao_temporal_constants, Real, temporal_constants, float>(
                 constants_of<temporal_constants>(step));
             std::vector<std::uint32_t>& written = histories_[static_cast<std::size_t>(frame.write)];

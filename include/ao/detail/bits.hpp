@@ -19,6 +19,11 @@ struct bits_of {
     static Real power_of_two(Integer n) { return Real(copy<typename Real::native>(typename Integer::native((n.v + 127) << 23))); }
     static Real real(Uint bits) { return Real(copy<typename Real::native>(bits.v)); }
     static Uint word(Real x) { return Uint(copy<typename Uint::native>(x.v)); }
+    static Real inverse_root_guess(Real x)
+    {
+        const auto bits = copy<typename Uint::native>(x.v);
+        return Real(copy<typename Real::native>(typename Uint::native(0x5f1ffff9U - (bits >> 1))));
+    }
 
 private:
     template <class To, class From>
@@ -43,6 +48,7 @@ struct bits_of<float, std::int32_t, std::uint32_t> {
     }
     static constexpr float real(std::uint32_t bits) { return std::bit_cast<float>(bits); }
     static constexpr std::uint32_t word(float x) { return std::bit_cast<std::uint32_t>(x); }
+    static constexpr float inverse_root_guess(float x) { return real(0x5f1ffff9U - (word(x) >> 1U)); }
 };
 
 template <>
@@ -57,6 +63,7 @@ struct bits_of<double, std::int32_t, std::uint32_t> {
     }
     static constexpr double real(std::uint32_t bits) { return static_cast<double>(std::bit_cast<float>(bits)); }
     static constexpr std::uint32_t word(double x) { return std::bit_cast<std::uint32_t>(static_cast<float>(x)); }
+    static constexpr double inverse_root_guess(double x) { return real(0x5f1ffff9U - (word(x) >> 1U)); }
 };
 
 // Whether a verdict holds anywhere.

@@ -16,9 +16,24 @@ struct ao_denoise_constants {
 // What a window holds of the pixel's surface.
 struct ao_denoise_sum {
     real hidden; // occlusion, in 4095ths, times weight
-    real weight; // in 2048ths
+    real weight; // in 1024ths
     real depth;  // of the pixel, eye depth, 0 for background
 };
+
+// The cosine between a unit direction and a texel's normal, as they are stored, to the fourth power; 0 from a right angle on and
+// for a normal that is none.
+AO_PASS real ao_likeness(vec3 direction, ivec2 texel)
+{
+    vec3 other = ao_decoded_normal(ao_normal_source, ao_load_normal(texel));
+    real squared = ao_dot(other, other);
+    real along = ao_dot(direction, other);
+    mask usable = along > real(0) && squared > real(1e-30) && squared < real(1e30);
+    AO_PRECISE real inverse = ao_inverse_root(mix(real(1), squared, usable));
+    AO_PRECISE real cosine = mix(real(0), along, usable) * inverse;
+    AO_PRECISE real square = cosine * cosine;
+    AO_PRECISE real likeness = square * square;
+    return likeness;
+}
 
 // Along the rows step_x is 1 and step_y 0, along the columns the other way round.
 AO_PASS ao_denoise_sum ao_denoise_window(ao_denoise_constants c, ivec2 pixel, int step_x, int step_y)
@@ -30,6 +45,10 @@ AO_PASS ao_denoise_sum ao_denoise_window(ao_denoise_constants c, ivec2 pixel, in
     vec3 position = ao_view_point(c.projection, centre, d, ao_parallel);
     vec3 normal = ao_shading_normal(c.projection, c.normal_to_view, vec2(c.width, c.height), pixel, position, ao_parallel);
     real plane = ao_dot(normal, position);
+    vec3 direction = vec3(real(0), real(0), real(1)); // the normal as stored, of whatever space
+    if (ao_normal_source != ao_normal_from_depth) {
+        direction = ao_stored_direction(pixel);
+    }
     AO_PRECISE real sharpness = real(1) / (c.plane_constant + d * d * c.plane_depth);
 
     real hidden = real(0);
@@ -48,8 +67,7 @@ AO_PASS ao_denoise_sum ao_denoise_window(ao_denoise_constants c, ivec2 pixel, in
         AO_PRECISE real near = max(real(1) - away * away * sharpness, real(0));
         AO_PRECISE real weighed = near * near * value.y;
         if (ao_normal_source != ao_normal_from_depth) {
-            AO_PRECISE real alike = max(ao_dot(normal, ao_stored_normal(c.normal_to_view, texel)), real(0));
-            AO_PRECISE real turned = weighed * (alike * alike * (alike * alike));
+            AO_PRECISE real turned = weighed * ao_likeness(direction, texel);
             weighed = turned;
         }
         real share = mix(real(0), weighed, used);
@@ -73,7 +91,7 @@ AO_FN real ao_denoised(ao_denoise_sum sum)
 AO_PASS vec2 ao_denoise_rows_pass(ao_denoise_constants c, ivec2 pixel)
 {
     ao_denoise_sum sum = ao_denoise_window(c, pixel, 1, 0);
-    AO_PRECISE real weight = sum.weight / (real(2048) * real(2 * ao_filter_radius + 1));
+    AO_PRECISE real weight = sum.weight / (real(ao_packed_weight) * real(2 * ao_filter_radius + 1));
     real both = ao_pack_visibility(ao_denoised(sum), weight);
     return vec2(mix(real(-1), both, sum.weight > real(0)), sum.depth);
 }

@@ -42,6 +42,13 @@ AO_PASS vec3 ao_normal_of_depth(ao_projection p, vec2 size, ivec2 pixel, vec3 po
     return ao_normalize_or(ao_select(normal, reversed, turned), vec3(real(0), real(0), real(1)));
 }
 
+// Unit normal in the space of a stored one; +Z where that is zero or not finite.
+AO_PASS vec3 ao_stored_direction(ivec2 pixel)
+{
+    vec3 stored = ao_decoded_normal(ao_normal_source, ao_load_normal(pixel));
+    return ao_normalize_or(stored, vec3(real(0), real(0), real(1)));
+}
+
 // Unit normal in view space from a stored one; +Z (towards the eye) where that is zero or not finite.
 AO_PASS vec3 ao_stored_normal(ao_rotation to_view, ivec2 pixel)
 {

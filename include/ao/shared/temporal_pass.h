@@ -3,16 +3,18 @@
 //            vec4 ao_load_motion(ivec2): xy in the host's convention, z eye depth in the last frame, 0 where it is not known;
 //            uvec4 ao_load_history(uint): of the last frame (history_load.h);
 //            vec2 ao_load_rotation(ivec2): from a tile of ao_tile_size squared;
-//            vec4 ao_load_tap(uint): an offset of the sequence, in tangent space (ritschel) or on the unit disc (fox_compton);
-//            and those of normal_pass.h and occlusion_tap.h.
-// Options:   int ao_most_samples: the larger of k1 and k2; int ao_contribution (ao_ritschel, ao_fox_compton);
+//            vec4 ao_load_tap(uint): an offset of the sequence, in tangent space (ritschel) or on the unit disc (fox_compton), or
+//            a tap of a slice as in ao/slices.hpp (bitmask); and those of normal_pass.h, occlusion_tap.h and slice_taps.h.
+// Options:   int ao_most_samples: the larger of k1 and k2; int ao_contribution (ao_ritschel, ao_fox_compton, ao_bitmask);
+//            int ao_slice_taps: of one slice (bitmask), of which k1, k2 and the period are multiples;
 //            bool ao_reproject: else camera and scene stand still; bool ao_use_motion; bool ao_cubic: histories
 //            between pixels by Catmull-Rom, else bilinear; int ao_invalidation (ao_keep_weight, ao_smooth_weight,
-//            ao_clamp_weight); and those of normal_pass.h and occlusion_tap.h.
+//            ao_clamp_weight); and those of normal_pass.h, occlusion_tap.h and slice_taps.h.
 // "Previous" means view space, pixels and depth of the last frame.
 
 AO_CONST int ao_ritschel = 0;
 AO_CONST int ao_fox_compton = 1;
+AO_CONST int ao_bitmask = 2;
 AO_CONST int ao_keep_weight = 0;
 AO_CONST int ao_smooth_weight = 1;
 AO_CONST int ao_clamp_weight = 2;
@@ -317,51 +319,113 @@ AO_PASS ao_temporal_pixel ao_begin_pixel(ao_temporal_constants c, ivec2 pixel)
     return begun;
 }
 
+// What a frame's samples of a pixel found.
+struct ao_new_samples {
+    real sum;    // of their occlusions, by weight
+    real weight; // their number, or what their slices count for, on average one a sample
+    real change; // the greatest of the neighbourhood, scene units
+};
+
+// Single offsets of a sequence, all of one weight.
+AO_PASS ao_new_samples ao_sample_offsets(ao_temporal_constants c, ao_temporal_pixel begun, ivec2 pixel, real bias,
+                                         vec3 normal_was)
+{
+    vec2 tile = ao_load_rotation(ao_tile_texel(pixel));
+    mask turned = begun.history.weight < c.rotation_weight;
+    vec2 helper = vec2(mix(real(1), tile.x, turned), mix(real(0), tile.y, turned));
+    ao_frame frame = ao_sampling_frame(begun.normal, helper);
+    ao_tap_space taps = ao_make_tap_space(c.projection, vec2(c.width, c.height), begun.position, frame, begun.depth, c.radius);
+
+    real sum = real(0);
+    real change = real(0);
+    int i = 0;
+    do { // the condition last: llvmpipe runs a body to its end even where no pixel is left
+        mask taken = real(i) < begun.wanted;
+        real index = ao_next_index(begun.history.index, real(i), c.period);
+        ao_tap_seen seen = ao_look(taps, c.projection, ao_load_tap(uint(index)), bias, c.thickness);
+        AO_PRECISE real next = sum + mix(real(0), ao_contribution_of(c, seen, begun.position, begun.normal, bias), taken);
+        sum = next;
+        if (ao_reproject && ao_invalidation != ao_keep_weight) {
+            real found = ao_neighbour_change(c, seen, begun.position, begun.normal, begun.previous.position, normal_was, bias,
+                                             begun.slope);
+            change = max(change, mix(real(0), found, taken));
+        }
+        ++i;
+    } while (i < ao_most_samples && ao_any(real(i) < begun.wanted));
+    ao_new_samples samples = { sum, begun.wanted, change };
+    return samples;
+}
+
+// Whole slices, each with the weight of its share of the hemisphere: the mean over many is that of the hemisphere.
+AO_PASS ao_new_samples ao_sample_slices(ao_temporal_constants c, ao_temporal_pixel begun, ivec2 pixel, real bias, vec3 normal_was)
+{
+    AO_PRECISE vec2 centre = vec2(real(pixel.x) + real(0.5), real(pixel.y) + real(0.5));
+    ao_slice_space space = ao_make_slice_space(c.projection, vec2(c.width, c.height), centre, begun.normal, begun.depth, c.radius,
+                                               c.thickness, bias, c.background);
+    vec2 turn = ao_load_rotation(ao_tile_texel(pixel));
+    AO_PRECISE real step_share = real(1) / real(ao_slice_taps);
+
+    real sum = real(0);
+    real weight = real(0);
+    real change = real(0);
+    int i = 0;
+    do {
+        mask taken = real(i) < begun.wanted;
+        vec4 slice_turn = ao_load_tap(uint(ao_next_index(begun.history.index, real(i), c.period)));
+        ao_slice_walk walk = ao_make_slice_walk(space, c.projection, turn.x, vec2(slice_turn.x, slice_turn.y));
+        uint blocked = uint(0u);
+        for (int k = 0; k < ao_slice_taps; ++k) {
+            real index = ao_next_index(begun.history.index, real(i + k), c.period);
+            real share = ao_step_share(ao_load_tap(uint(index)), turn.y, step_share);
+            ao_slice_seen seen = ao_look_along(space, c.projection, walk, pixel, share);
+            blocked = blocked | seen.blocked;
+            if (ao_reproject && ao_invalidation != ao_keep_weight) {
+                ao_tap_seen tap = { seen.texel, seen.surface, seen.blocked != uint(0u) };
+                real found = ao_neighbour_change(c, tap, begun.position, begun.normal, begun.previous.position, normal_was, bias,
+                                                 begun.slope);
+                change = max(change, mix(real(0), found, taken));
+            }
+        }
+        AO_PRECISE real counts = mix(real(0), walk.slice.weight * real(ao_slice_taps), taken);
+        AO_PRECISE real next_sum = sum + counts * (ao_sectors_in(blocked) / real(ao_sector_count));
+        AO_PRECISE real next_weight = weight + counts;
+        sum = next_sum;
+        weight = next_weight;
+        i += ao_slice_taps;
+    } while (i < ao_most_samples && ao_any(real(i) < begun.wanted));
+    ao_new_samples samples = { sum, weight, change };
+    return samples;
+}
+
 // What the next frames are to know of the pixel. Background: all 0.
 AO_PASS ao_history ao_accumulate_pass(ao_temporal_constants c, ivec2 pixel)
 {
     ao_temporal_pixel begun = ao_begin_pixel(c, pixel);
     mask foreground = begun.foreground;
     real d = begun.depth;
-    vec3 position = begun.position;
-    vec3 normal = begun.normal;
     ao_history h = begun.history;
-    real wanted = begun.wanted;
     AO_PRECISE real bias = c.bias + d * (c.bias_linear + d * c.bias_quadratic);
-    vec3 normal_was = ao_transform_direction(ao_affine_of(c.to_previous), normal);
-
-    vec2 tile = ao_load_rotation(ao_tile_texel(pixel));
-    mask turned = h.weight < c.rotation_weight;
-    vec2 helper = vec2(mix(real(1), tile.x, turned), mix(real(0), tile.y, turned));
-    ao_tap_space taps =
-        ao_make_tap_space(c.projection, vec2(c.width, c.height), position, ao_sampling_frame(normal, helper), d, c.radius);
-
-    real sum = real(0);
-    real change = real(0); // the greatest
-    int i = 0;
-    do { // the condition last: llvmpipe runs a body to its end even where no pixel is left
-        mask taken = real(i) < wanted;
-        real index = ao_next_index(h.index, real(i), c.period);
-        ao_tap_seen seen = ao_look(taps, c.projection, ao_load_tap(uint(index)), bias, c.thickness);
-        AO_PRECISE real next = sum + mix(real(0), ao_contribution_of(c, seen, position, normal, bias), taken);
-        sum = next;
-        if (ao_reproject && ao_invalidation != ao_keep_weight) {
-            real found = ao_neighbour_change(c, seen, position, normal, begun.previous.position, normal_was, bias, begun.slope);
-            change = max(change, mix(real(0), found, taken));
-        }
-        ++i;
-    } while (i < ao_most_samples && ao_any(real(i) < wanted));
+    vec3 normal_was = ao_transform_direction(ao_affine_of(c.to_previous), begun.normal);
+    ao_new_samples samples;
+    if (ao_contribution == ao_bitmask) {
+        samples = ao_sample_slices(c, begun, pixel, bias, normal_was);
+    }
+    else {
+        samples = ao_sample_offsets(c, begun, pixel, bias, normal_was);
+    }
     real weight = h.weight;
-    real confidence = ao_confidence(change, c.steepness); // the least over the samples
+    real confidence = ao_confidence(samples.change, c.steepness); // the least over the samples
     if (ao_reproject && ao_invalidation == ao_smooth_weight) {
         weight = ao_kept_weight(weight, confidence);
     }
     if (ao_reproject && ao_invalidation == ao_clamp_weight) {
         weight = mix(weight, min(weight, c.clamped_weight), confidence < real(0.5));
     }
-    real value = ao_accumulated(h.value, weight, sum, mix(real(1), wanted, foreground));
+    // A slice at right angles to the normal, and no history: nothing is known.
+    AO_PRECISE real known = weight + samples.weight;
+    real value = ao_accumulated(h.value, weight, samples.sum, mix(real(1), samples.weight, known > real(0)));
     ao_history next = { mix(real(0), min(value, real(1)), foreground),
-                        mix(real(0), ao_next_weight(weight, wanted, c.most_weight), foreground),
-                        mix(real(0), ao_next_index(h.index, wanted, c.period), foreground), mix(real(0), d, foreground) };
+                        mix(real(0), ao_next_weight(weight, begun.wanted, c.most_weight), foreground),
+                        mix(real(0), ao_next_index(h.index, begun.wanted, c.period), foreground), mix(real(0), d, foreground) };
     return next;
 }
