@@ -42,6 +42,7 @@ struct bake_job {
     float reach = 0;          // settings.distance in units; 1e15 where that is more
     glm::vec4 ground{ 0.0F }; // ao_bake_ground; w in units
     bool by_cosine = false;   // weights are multiplied by the cosine
+    bool random = false;      // sphere_rule::random
     // The rule is turned at each vertex (vertex_rotation).
     bool turned() const { return settings.rotate_per_vertex || domain != rule_domain::sphere; }
     std::size_t vertices() const { return mesh.vertices.size(); }
@@ -118,7 +119,7 @@ struct bake_report {
 
 struct bake_result {
     std::vector<float> coefficients; // per vertex of the input, [0, 1] unless the rule has negative weights; 1 where unbaked
-    std::vector<float> errors;       // estimated standard error of each, of spread rules; docs/numerics.md, "Per vertex"
+    std::vector<float> errors;       // estimated standard error of each; docs/numerics.md, "Per vertex"
     std::vector<glm::vec3> bent;     // unit, the mean open direction; the normal where nothing is open; if asked for
     std::vector<std::uint8_t> flags; // bake_flag
     bake_report report;
@@ -150,6 +151,7 @@ inline result<bake_job> prepare_bake(const bake_input& input, const sphere_rule&
     job.lines = std::move(lines->lines);
     job.directions = std::move(lines->directions);
     job.domain = rule.domain;
+    job.random = rule.random;
     job.reach = static_cast<float>(std::min(settings.distance * job.mesh.diagonal, 1e15)); // its product with an area is finite
     job.by_cosine = settings.coefficient == bake_coefficient::cosine && rule.domain != rule_domain::cosine_hemisphere;
     if (settings.ground) {
@@ -243,6 +245,19 @@ inline float bake_error_of(const bake_sum& s, bool by_cosine)
     return static_cast<float>(bake_error_factor * std::sqrt(changes) / s.count);
 }
 
+// Independent directions: the variance of a mean of n of them, each open with the chance that was found. Where all or none are,
+// that is taken from two more, one of each. By the cosine squared weights sum to 4 / 3 of what they would if they were equal.
+inline float bake_random_error_of(const bake_sum& s, bool by_cosine)
+{
+    if (s.count <= 0 || s.all <= 0) {
+        return 0;
+    }
+    const double n = s.count;
+    const double open = std::clamp(static_cast<double>(s.open) / static_cast<double>(s.all), 0.0, 1.0);
+    const double chance = (open * n + 1) / (n + 2);
+    return static_cast<float>(std::sqrt(chance * (1 - chance) / n * (by_cosine ? 4.0 / 3 : 1.0)));
+}
+
 } // namespace detail
 
 // Precondition: sums.holds(job).
@@ -277,7 +292,7 @@ inline bake_result finish_bake(const bake_job& job, const bake_sums& sums)
         }
         const auto coefficient = static_cast<float>(static_cast<double>(s.open) / static_cast<double>(s.all));
         baked.coefficients[v] = coefficient;
-        baked.errors[v] = detail::bake_error_of(s, job.by_cosine);
+        baked.errors[v] = job.random ? detail::bake_random_error_of(s, job.by_cosine) : detail::bake_error_of(s, job.by_cosine);
         if (job.settings.bent_normals) {
             const glm::dvec3 bent(s.x, s.y, s.z);
             const double length = glm::length(bent);

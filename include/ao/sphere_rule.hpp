@@ -25,13 +25,15 @@ enum class rule_domain {
 };
 
 // Directions are of unit length to 1e-15. `antipodal`: directions[2 i + 1] is exactly -directions[2 i], of the same weight.
-// `order`: all spherical harmonics up to it are integrated exactly; -1: not even that is known.
+// `order`: all spherical harmonics up to it are integrated exactly; -1: not even that is known. `random`: drawn independently of
+// each other, so that errors fall with N^-1/2 and are estimated by that law.
 struct sphere_rule {
     std::vector<direction3> directions;
     std::vector<double> weights; // sum to 1 but for rounding
     bool antipodal = false;
     int order = -1;
     rule_domain domain = rule_domain::sphere;
+    bool random = false;
 
     std::size_t size() const { return directions.size(); }
 };
@@ -176,6 +178,7 @@ inline result<sphere_rule> marsaglia_rule(int count, std::uint32_t seed)
         return detail::uncountable(count);
     }
     sphere_rule rule;
+    rule.random = true;
     random_stream random(seed);
     while (rule.size() < static_cast<std::size_t>(count)) {
         const double first = 2 * static_cast<double>(random.uniform()) - 1;

@@ -141,17 +141,18 @@ void check_slopes(const rule_panel& panel)
     }
 }
 
-// The estimate is that of spread rules: 1 to 3 times the error, and of single vertices seldom less than half of it.
+// Of spread rules the estimate is 1 to 3 times the error, of random ones the error itself, within what eight sets scatter; and
+// of single vertices it is seldom less than half of it.
 void check_estimates(const rule_panel& panel)
 {
     for (const rule_kind& kind : rule_kinds()) {
-        if (kind.random() || (kind.by_cosine && panel.kind != "cosine")) {
+        if (kind.by_cosine && panel.kind != "cosine") {
             continue;
         }
         for (const rule_point& p : line_of(panel, kind.name).points) {
             CAPTURE(panel.subject, panel.kind, kind.name, p.directions, p.error, p.estimated, p.within_two);
-            CHECK(p.estimated > p.error);
-            CHECK(p.estimated < 3 * p.error);
+            CHECK(p.estimated > (kind.random() ? 0.6 : 1) * p.error);
+            CHECK(p.estimated < (kind.random() ? 1.7 : 3) * p.error);
             CHECK(p.within_two > (p.directions < 900 ? 0.6 : 0.8));
         }
     }

@@ -55,50 +55,6 @@ mesh broken(int levels, std::uint32_t seed)
     return m;
 }
 
-// Closed surfaces that the raster looks at from one side: rough, flat, in one another, inside out, cut by an open one, and few
-// and large beside many and small.
-mesh closed_meshes(int which)
-{
-    std::mt19937 random(17);
-    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-    const auto rough = [&](const glm::dvec3& centre, double radius, double noise, const glm::dvec3& stretch) {
-        mesh m = sphere({ 0, 0, 0 }, radius, 2);
-        for (glm::dvec3& p : m.positions) {
-            p = glm::dvec3(glm::vec3(centre + p * (1 + noise * uniform(random)) * stretch));
-        }
-        return m;
-    };
-    const glm::dvec3 even(1.0);
-    mesh m = rough({ 0, 0, 0 }, 1, 0.3, even);
-    switch (which) {
-    case 0:
-        append(m, rough({ 0.9, 0.2, 0.1 }, 0.8, 0.1, even));
-        append(m, rough({ 0, 0.1, 0 }, 0.3, 0.1, even));
-        break;
-    case 1:
-        m = rough({ 0, 0, 0 }, 1, 0.9, even);
-        break;
-    case 2:
-        m = rough({ 0, 0, 0 }, 1, 0.2, { 1, 2e-4, 1 });
-        append(m, rough({ 0.1, 0.3, 0 }, 1, 0.2, { 3e-6, 0.2, 1 }));
-        break;
-    case 3:
-        append(m, grid({ -2, -2, 0.1 }, { 4, 0.1, 0 }, { 0, 4, 0.3 }, 5));
-        break;
-    case 4:
-        m = welded(box({ -2, -1.5, -1 }, { 2, 1.5, 1.2 }, 1, true));
-        append(m, rough({ 0.3, 0.2, 0.1 }, 0.5, 0.3, even));
-        break;
-    default:
-        for (std::size_t i = 0; i < m.indices.size(); i += 3) {
-            std::swap(m.indices[i], m.indices[i + 1]);
-        }
-        append(m, rough({ 2.5, 0, 0 }, 1, 0.3, even));
-    }
-    m.normals.clear();
-    return m;
-}
-
 ao::cpu::baker make(ao::cpu::width lanes = ao::cpu::width::automatic, int threads = 0)
 {
     auto made = ao::cpu::baker::create({ .lanes = lanes, .threads = threads });
@@ -146,22 +102,6 @@ TEST_CASE("every route gives the reference's bits", "[bake][cpu]")
             CAPTURE(name_of(lanes), static_cast<int>(route));
             check_same(*job, baker, route, *wanted);
         }
-    }
-}
-
-TEST_CASE("closed surfaces seen from one side give the reference's bits", "[bake][cpu]")
-{
-    const mesh m = closed_meshes(GENERATE(0, 1, 2, 3, 4, 5));
-    const auto rule = ao::lebedev_rule(302);
-    const auto settings =
-        GENERATE(ao::bake_settings{}, ao::bake_settings{ .coefficient = ao::bake_coefficient::cosine, .bent_normals = true });
-    const auto job = ao::prepare_bake(m.input(), *rule, settings);
-    REQUIRE(job);
-    const auto wanted = ao::bake_reference(*job);
-    REQUIRE(wanted);
-    for (const ao::cpu::width lanes : { ao::cpu::width::scalar, ao::cpu::width::automatic }) {
-        ao::cpu::baker baker = make(lanes, 2);
-        check_same(*job, baker, ao::bake_route::raster, *wanted);
     }
 }
 
