@@ -40,6 +40,7 @@ vec4 ao_load_tap(uint index)
 
 #include "ao/shared/normal_pass.h"
 #include "ao/shared/occlusion_tap.h"
+#include "ao/shared/temporal_reads.glsl"
 #include "ao/shared/temporal_pass.h"
 
 layout(std140, binding = 0) uniform ao_constants_block { ao_temporal_constants ao_constants; };

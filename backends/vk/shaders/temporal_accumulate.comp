@@ -3,6 +3,7 @@
 #include "temporal.glsl"
 #include "ao/shared/normal_pass.h"
 #include "ao/shared/occlusion_tap.h"
+#include "ao/shared/temporal_reads.glsl"
 #include "ao/shared/temporal_pass.h"
 
 layout(binding = 7, std140) uniform pass_constants { ao_temporal_constants constants; };
