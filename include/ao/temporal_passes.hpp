@@ -9,11 +9,12 @@
 namespace ao {
 
 // Resources: real depth(ivec2), vec4 normal(ivec2), vec4 motion(ivec2), uvec4 history(uint), vec2 rotation(ivec2), vec4
-// tap(uint).
+// tap(uint); and, where they are faster, real own_depth(ivec2) and std::array<uvec4, 4> history_row(uint, uint, uint, uint).
 template <class Real, class Resources>
 struct temporal_pass {
 #include "ao/detail/scope.inc"
 #include "ao/shared/functions.h"
+#include "ao/shared/history_row.h"
 
     Resources resources;
     int ao_most_samples = 0;
@@ -33,6 +34,15 @@ struct temporal_pass {
     {
         return resources.depth(pixel);
     }
+    constexpr real ao_load_own_depth(ivec2 pixel)
+    {
+        if constexpr (requires { resources.own_depth(pixel); }) {
+            return resources.own_depth(pixel);
+        }
+        else {
+            return resources.depth(pixel);
+        }
+    }
     constexpr vec4 ao_load_normal(ivec2 pixel)
     {
         return resources.normal(pixel);
@@ -44,6 +54,16 @@ struct temporal_pass {
     constexpr uvec4 ao_load_history(uint pixel)
     {
         return resources.history(pixel);
+    }
+    constexpr ao_history_row ao_load_history_row(uint first, uint second, uint third, uint fourth)
+    {
+        if constexpr (requires { resources.history_row(first, second, third, fourth); }) {
+            const auto row = resources.history_row(first, second, third, fourth);
+            return { row[0], row[1], row[2], row[3] };
+        }
+        else {
+            return { resources.history(first), resources.history(second), resources.history(third), resources.history(fourth) };
+        }
     }
     constexpr vec2 ao_load_rotation(ivec2 pixel)
     {

@@ -8,6 +8,8 @@
 
 #include <immintrin.h>
 
+#include <array>
+
 namespace {
 
 struct avx512;
@@ -68,6 +70,42 @@ struct ao::cpu::detail::memory_instructions<16, avx512> {
         // The unmasked forms of these intrinsics start from an undefined value, of which g++ 12 warns.
         return reinterpret_cast<words>(
             _mm512_mask_i32gather_epi32(_mm512_setzero_si512(), 0xffff, reinterpret_cast<__m512i>(index), data, 4));
+    }
+    // Words i, i + 4, i + 8 ... of the 64 from there on.
+    static words every_fourth(const std::byte* data, int i)
+    {
+        const auto load = [&](int part) { return _mm512_loadu_si512(data + 64 * part); };
+        const __m512i low = _mm512_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28, 0, 4, 8, 12, 16, 20, 24, 28);
+        const __m512i from = _mm512_add_epi32(low, _mm512_set1_epi32(i));
+        const __m512i first = _mm512_permutex2var_epi32(load(0), from, load(1));
+        const __m512i second = _mm512_permutex2var_epi32(load(2), from, load(3));
+        return reinterpret_cast<words>(_mm512_mask_blend_epi64(0xf0, first, second));
+    }
+    // The words at data + 4 * index and the two behind each: one load of four words a lane, a third of those of three gathers.
+    static std::array<words, 3> gather_triples(const std::byte* data, words index)
+    {
+        alignas(64) std::int32_t at[16];
+        std::memcpy(at, &index, sizeof(words));
+        const auto lane = [&](int i) {
+            return _mm_loadu_si128(reinterpret_cast<const __m128i*>(data + std::size_t{ 4 } * static_cast<std::uint32_t>(at[i])));
+        };
+        const auto every_fourth_lane = [&](int i) {
+            __m512i all = _mm512_castsi128_si512(lane(i));
+            all = _mm512_maskz_inserti32x4(0xffff, all, lane(i + 4), 1);
+            all = _mm512_maskz_inserti32x4(0xffff, all, lane(i + 8), 2);
+            return _mm512_maskz_inserti32x4(0xffff, all, lane(i + 12), 3);
+        };
+        const __m512i a = every_fourth_lane(0);
+        const __m512i b = every_fourth_lane(1);
+        const __m512i c = every_fourth_lane(2);
+        const __m512i d = every_fourth_lane(3);
+        const __m512i low_ab = _mm512_maskz_unpacklo_epi32(0xffff, a, b);
+        const __m512i low_cd = _mm512_maskz_unpacklo_epi32(0xffff, c, d);
+        const __m512i high_ab = _mm512_maskz_unpackhi_epi32(0xffff, a, b);
+        const __m512i high_cd = _mm512_maskz_unpackhi_epi32(0xffff, c, d);
+        return { reinterpret_cast<words>(_mm512_maskz_unpacklo_epi64(0xff, low_ab, low_cd)),
+                 reinterpret_cast<words>(_mm512_maskz_unpackhi_epi64(0xff, low_ab, low_cd)),
+                 reinterpret_cast<words>(_mm512_maskz_unpacklo_epi64(0xff, high_ab, high_cd)) };
     }
     static bool equal(words a, words b)
     {

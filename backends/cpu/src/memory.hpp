@@ -5,6 +5,7 @@
 #include "ao/half.hpp"
 #include "ao/lanes.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -51,7 +52,13 @@ struct memory<float> {
     static integer ascending(int first, int, int) { return first; }
     static int first(integer x) { return x; }
     static bool uniform(integer) { return true; }
+    static bool consecutive(integer a, integer b, integer c, integer d) { return b == a + 1 && c == a + 2 && d == a + 3; }
+    static integer load_words(const std::byte* data) { return gather(data, 0); }
     static integer load(const std::byte* data, integer index) { return gather(data, index); }
+    static std::array<integer, 3> gather_triples(const std::byte* data, integer index)
+    {
+        return { gather(data, index), gather(data + 4, index), gather(data + 8, index) };
+    }
     static integer gather(const std::byte* data, integer index)
     {
         std::int32_t word = 0;
@@ -86,19 +93,46 @@ struct memory<lanes<float, N, Tag>> {
     static int first(integer x) { return x[0]; }
     // Whether all lanes are the same.
     static bool uniform(integer x) { return instructions::equal(x.v, words{} + x[0]); }
+    // Whether lanes of `a` are so many numbers one after the other, and each of b, c and d is the one after that before.
+    static bool consecutive(integer a, integer b, integer c, integer d)
+    {
+        return consecutive(a) && instructions::equal(a.v, b.v - 1) && instructions::equal(a.v, c.v - 2) &&
+               instructions::equal(a.v, d.v - 3);
+    }
+    static bool consecutive(integer a) { return instructions::equal(a.v, ascending(a[0], 1, N).v); }
+    // N words from there on.
+    static integer load_words(const std::byte* data)
+    {
+        words loaded;
+        std::memcpy(&loaded, data, sizeof(words));
+        return integer(loaded);
+    }
     // As gather, and quick where the words lie side by side.
     static integer load(const std::byte* data, integer index)
     {
         const int first = index[0];
-        if (instructions::equal(index.v, ascending(first, 1, N).v)) {
-            words loaded;
-            std::memcpy(&loaded, data + std::size_t{ 4 } * static_cast<std::uint32_t>(first), sizeof(words));
-            return integer(loaded);
+        if (consecutive(index)) {
+            return load_words(data + std::size_t{ 4 } * static_cast<std::uint32_t>(first));
         }
         return gather(data, index);
     }
     // The words at data + 4 * index, index >= 0.
     static integer gather(const std::byte* data, integer index) { return integer(instructions::gather(data, index.v)); }
+    // The words at data + 4 * index, index >= 0, and the two behind each, of texels of four words; quick where these lie side by
+    // side.
+    static std::array<integer, 3> gather_triples(const std::byte* data, integer index)
+    {
+        if constexpr (requires { instructions::every_fourth(data, 0); }) {
+            if (instructions::equal(index.v, ascending(index[0], 4, N).v)) {
+                const std::byte* at = data + std::size_t{ 4 } * static_cast<std::uint32_t>(index[0]);
+                return { integer(instructions::every_fourth(at, 0)), integer(instructions::every_fourth(at, 1)),
+                         integer(instructions::every_fourth(at, 2)) };
+            }
+            const auto found = instructions::gather_triples(data, index.v);
+            return { integer(found[0]), integer(found[1]), integer(found[2]) };
+        }
+        return { gather(data, index), gather(data + 4, index), gather(data + 8, index) };
+    }
     static real as_real(integer word) { return real(reinterpret_cast<typename real::native>(word.v)); }
     // From the low 16 bits of each word.
     static real half(integer codes) { return real(instructions::half(codes.v)); }

@@ -57,8 +57,10 @@ struct reader {
             return vec4(unorm(pixel, 0, 10), unorm(pixel, 10, 10), unorm(pixel, 20, 10), Real(0));
         case pixel_format::rg16:
             return vec4(unorm(pixel, 0, 16), unorm(pixel, 16, 16), Real(0), Real(0));
-        default:
-            return vec4(component(pixel, 0), component(pixel, 1), component(pixel, 2), Real(0));
+        default: {
+            const auto words = memory::gather_triples(data, pixel.y * integer(row_words) + pixel.x * integer(pixel_words));
+            return vec4(memory::as_real(words[0]), memory::as_real(words[1]), memory::as_real(words[2]), Real(0));
+        }
         }
     }
     // Component `i` of rgba32f.

@@ -5,6 +5,7 @@
 
 #include "ao/temporal_passes.hpp"
 
+#include <array>
 #include <cstdint>
 
 namespace ao::cpu::detail {
@@ -29,6 +30,25 @@ struct history_reader {
         };
         return { word(0), word(1), word(2), word(3) };
     }
+    // Of four pixels. Quick where those of each lane lie side by side, and lanes do.
+    template <class Uint>
+    std::array<glm::vec<4, Uint>, 4> row(Uint first, Uint second, Uint third, Uint fourth) const
+    {
+        const auto plane = [&](int which) { return data + static_cast<std::size_t>(which < words ? which : 0) * plane_bytes; };
+        if (memory::consecutive(integer(first), integer(second), integer(third), integer(fourth))) {
+            const auto start = std::size_t{ 4 } * static_cast<std::uint32_t>(memory::first(integer(first)));
+            const auto pixel = [&](std::size_t i) {
+                const auto word = [&](int which) { return Uint(memory::load_words(plane(which) + start + 4 * i)); };
+                return glm::vec<4, Uint>{ word(0), word(1), word(2), word(3) };
+            };
+            return { pixel(0), pixel(1), pixel(2), pixel(3) };
+        }
+        const auto pixel = [&](Uint at) {
+            const auto word = [&](int which) { return Uint(memory::gather(plane(which), integer(at))); };
+            return glm::vec<4, Uint>{ word(0), word(1), word(2), word(3) };
+        };
+        return { pixel(first), pixel(second), pixel(third), pixel(fourth) };
+    }
 };
 
 template <class Real>
@@ -51,6 +71,7 @@ struct temporal_resources {
     bool slices = false;             // w is more than 0
 
     Real depth(ivec2 pixel) const { return eye_depth.gathered(pixel); }
+    Real own_depth(ivec2 pixel) const { return eye_depth.loaded(pixel); }
     vec4 normal(ivec2 pixel) const { return normals.normal(pixel); }
     vec4 motion(ivec2 pixel) const
     {
@@ -60,6 +81,10 @@ struct temporal_resources {
         return motions.normal(pixel); // the other formats are those of normals
     }
     uvec4 history(uint pixel) const { return last.at(pixel); }
+    std::array<uvec4, 4> history_row(uint first, uint second, uint third, uint fourth) const
+    {
+        return last.row(first, second, third, fourth);
+    }
     vec2 rotation(ivec2 texel) const { return vec2(rotation_x.loaded(texel), rotation_y.loaded(texel)); }
     vec4 tap(uint i) const
     {

@@ -41,6 +41,7 @@ vec4 ao_load_tap(uint index)
 
 #include "ao/shared/normal_pass.h"
 #include "ao/shared/occlusion_tap.h"
+#include "ao/shared/temporal_reads.glsl"
 #include "ao/shared/slice_taps.h"
 #include "ao/shared/temporal_pass.h"
 

@@ -3,6 +3,7 @@
 #include "temporal.glsl"
 #include "ao/shared/normal_pass.h"
 #include "ao/shared/occlusion_tap.h"
+#include "ao/shared/temporal_reads.glsl"
 #include "ao/shared/slice_taps.h"
 #include "ao/shared/temporal_pass.h"
 

@@ -1,7 +1,9 @@
 // Temporal ambient occlusion (paper 2): new samples of this frame are added to what the last frames know of the same surface
 // point. Callbacks: real ao_load_depth(ivec2): eye depth of this frame, 0 or less, NaN or infinite for background;
+//            real ao_load_own_depth(ivec2): the same, of the pixel itself;
 //            vec4 ao_load_motion(ivec2): xy in the host's convention, z eye depth in the last frame, 0 where it is not known;
 //            uvec4 ao_load_history(uint): of the last frame (history_load.h);
+//            ao_history_row ao_load_history_row(uint, uint, uint, uint): four of them, mostly side by side (history_row.h);
 //            vec2 ao_load_rotation(ivec2): from a tile of ao_tile_size squared;
 //            vec4 ao_load_tap(uint): an offset of the sequence, in tangent space (ritschel) or on the unit disc (fox_compton), or
 //            a tap of a slice as in ao/slices.hpp (bitmask); and those of normal_pass.h, occlusion_tap.h and slice_taps.h.
@@ -89,44 +91,46 @@ AO_PASS ao_previous ao_previous_of(ao_temporal_constants c, ivec2 texel, vec3 po
     return previous;
 }
 
-// A texel between which histories are interpolated: its value, and 1, or 0 and 0 where it shows another surface.
+// A texel between which histories are interpolated, and whether it shows the same surface.
 struct ao_recalled_texel {
     real value;
-    real usable;
+    mask usable;
 };
 
-AO_PASS ao_recalled_texel ao_recall_texel(real width, integer column, integer row, real nearest, real farthest)
+AO_PASS ao_recalled_texel ao_recall_texel(uvec4 words, real nearest, real farthest)
 {
-    ao_history at = ao_history_at(ivec2(column, row), width);
+    ao_history at = ao_unpacked_history(words, ao_history_format);
     mask usable = at.value >= real(0) && at.value <= real(1) && at.depth >= nearest && at.depth <= farthest;
-    ao_recalled_texel texel = { mix(real(0), at.value, usable), mix(real(0), real(1), usable) };
+    ao_recalled_texel texel = { at.value, usable };
     return texel;
 }
 
-// Sums over a row of such texels. Texels 0 and 1 by linear weights, and where ao_cubic all four by `cubic`.
+// Sums over a row of such texels.
 struct ao_recalled_row {
-    real linear;
+    real linear; // of the usable ones of texels 0 and 1, by linear weights
     real linear_weight;
-    real cubic;
-    real usable; // so many of the texels
+    real cubic;  // where ao_cubic, of all four, by `cubic`; of no meaning where one is not usable
+    mask usable; // where ao_cubic: all four
 };
 
 // `columns`: texels -1 ... 2, clamped to the picture.
 AO_PASS ao_recalled_row ao_recall_row(real width, integer column_0, integer column_1, integer column_2, integer column_3,
                                       integer row, real across, vec4 cubic, real nearest, real farthest)
 {
-    ao_recalled_texel b = ao_recall_texel(width, column_1, row, nearest, farthest);
-    ao_recalled_texel c = ao_recall_texel(width, column_2, row, nearest, farthest);
+    ao_history_row words =
+        ao_load_history_row(ao_history_place(ivec2(column_0, row), width), ao_history_place(ivec2(column_1, row), width),
+                            ao_history_place(ivec2(column_2, row), width), ao_history_place(ivec2(column_3, row), width));
+    ao_recalled_texel b = ao_recall_texel(words.second, nearest, farthest);
+    ao_recalled_texel c = ao_recall_texel(words.third, nearest, farthest);
     AO_PRECISE real before = real(1) - across;
-    AO_PRECISE real linear = before * b.value + across * c.value;
-    AO_PRECISE real linear_weight = before * b.usable + across * c.usable;
-    ao_recalled_row sums = { linear, linear_weight, real(0), real(0) };
+    AO_PRECISE real linear = mix(real(0), before * b.value, b.usable) + mix(real(0), across * c.value, c.usable);
+    AO_PRECISE real linear_weight = mix(real(0), before, b.usable) + mix(real(0), across, c.usable);
+    ao_recalled_row sums = { linear, linear_weight, real(0), b.usable };
     if (ao_cubic) {
-        ao_recalled_texel a = ao_recall_texel(width, column_0, row, nearest, farthest);
-        ao_recalled_texel d = ao_recall_texel(width, column_3, row, nearest, farthest);
+        ao_recalled_texel a = ao_recall_texel(words.first, nearest, farthest);
+        ao_recalled_texel d = ao_recall_texel(words.fourth, nearest, farthest);
         AO_PRECISE real sum = cubic.x * a.value + cubic.y * b.value + cubic.z * c.value + cubic.w * d.value;
-        AO_PRECISE real count = a.usable + b.usable + c.usable + d.usable;
-        ao_recalled_row all = { linear, linear_weight, sum, count };
+        ao_recalled_row all = { linear, linear_weight, sum, a.usable && b.usable && c.usable && d.usable };
         sums = all;
     }
     return sums;
@@ -183,8 +187,7 @@ AO_PASS ao_history ao_recalled_history(ao_temporal_constants c, vec2 centre, ao_
         vec4 cubic_down = ao_cubic_weights(down);
         AO_PRECISE real sum =
             cubic_down.x * first.cubic + cubic_down.y * second.cubic + cubic_down.z * third.cubic + cubic_down.w * fourth.cubic;
-        AO_PRECISE real usable = first.usable + second.usable + third.usable + fourth.usable;
-        value = mix(value, sum, usable == real(16));
+        value = mix(value, sum, first.usable && second.usable && third.usable && fourth.usable);
     }
     AO_PRECISE real moved = abs(previous.pixel.x - centre.x) + abs(previous.pixel.y - centre.y);
     real most = mix(c.most_weight, min(c.most_weight, c.moving_weight), moved > real(0.015625));
@@ -225,22 +228,28 @@ AO_PASS real ao_neighbour_change(ao_temporal_constants c, ao_tap_seen seen, vec3
     AO_PRECISE vec3 then_offset = vec3(then.x - was.x, then.y - was.y, then.z - was.z);
     AO_PRECISE real now_height = ao_dot(now_offset, normal);
     AO_PRECISE real then_height = ao_dot(then_offset, normal_was);
-    AO_PRECISE real now_distance = sqrt(ao_dot(now_offset, now_offset));
-    AO_PRECISE real then_distance = sqrt(ao_dot(then_offset, then_offset));
-    AO_PRECISE real difference = abs(now_distance - then_distance);
     mask near_now = now_height > bias;
     mask near_then = then_height > bias;
-    if (ao_contribution == ao_fox_compton || ao_limit_thickness) {
-        // What is farther occludes nothing: a change there is no change.
-        AO_PRECISE real reach = ao_contribution == ao_fox_compton ? c.radius : c.radius + c.thickness;
-        near_now = near_now && now_distance < reach;
-        near_then = near_then && then_distance < reach;
-    }
-    // Where the last frame saw no surface, one has come.
-    real rounded = ao_depth_tolerance(expected, c.motion_error, c.tolerance_constant, c.bias_linear, c.bias_quadratic, real(0));
-    real change = mix(mix(c.radius, difference, usable), real(0), same && difference <= rounded);
     mask matters = surface && before.inside && (near_now || (usable && near_then));
-    return mix(real(0), change, matters);
+    real change = real(0);
+    // On most of a picture everything near lies in the pixel's own plane.
+    if (ao_any(matters)) {
+        AO_PRECISE real now_distance = sqrt(ao_dot(now_offset, now_offset));
+        AO_PRECISE real then_distance = sqrt(ao_dot(then_offset, then_offset));
+        AO_PRECISE real difference = abs(now_distance - then_distance);
+        if (ao_contribution == ao_fox_compton || ao_limit_thickness) {
+            // What is farther occludes nothing: a change there is no change.
+            AO_PRECISE real reach = ao_contribution == ao_fox_compton ? c.radius : c.radius + c.thickness;
+            near_now = near_now && now_distance < reach;
+            near_then = near_then && then_distance < reach;
+        }
+        // Where the last frame saw no surface, one has come.
+        real rounded =
+            ao_depth_tolerance(expected, c.motion_error, c.tolerance_constant, c.bias_linear, c.bias_quadratic, real(0));
+        real found = mix(mix(c.radius, difference, usable), real(0), same && difference <= rounded);
+        change = mix(real(0), found, surface && before.inside && (near_now || (usable && near_then)));
+    }
+    return change;
 }
 
 // One new sample: [0, 1].
@@ -298,7 +307,7 @@ struct ao_temporal_pixel {
 
 AO_PASS ao_temporal_pixel ao_begin_pixel(ao_temporal_constants c, ivec2 pixel)
 {
-    real stored = ao_load_depth(pixel);
+    real stored = ao_load_own_depth(pixel);
     mask foreground = ao_is_surface(stored, c.background);
     real d = mix(real(1), stored, foreground);
     vec2 size = vec2(c.width, c.height);
