@@ -7,6 +7,6 @@
 
 namespace stability {
 
-inline constexpr std::array methods{ ao::method::box, ao::method::hemisphere, ao::method::halton };
+inline constexpr std::array methods{ ao::method::box, ao::method::hemisphere, ao::method::halton, ao::method::bitmask };
 
 } // namespace stability
