@@ -59,6 +59,20 @@ double mean(const std::vector<float>& all)
     return std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size());
 }
 
+// Mean of many turns of the slices.
+std::vector<float> mean_of_seeds(const viewer& v, const pictures& p, ao::settings s, int seeds)
+{
+    std::vector<float> all(p.depth.size());
+    for (int i = 0; i < seeds; ++i) {
+        s.seed = static_cast<std::uint32_t>(i + 1);
+        const std::vector<float> once = visibility(v, p, s);
+        for (std::size_t k = 0; k < all.size(); ++k) {
+            all[k] += once[k] / static_cast<float>(seeds);
+        }
+    }
+    return all;
+}
+
 // Mean over the pixels whose share of the picture's width lies in [left, right).
 double mean_of_columns(const viewer& v, const std::vector<float>& all, int left, int right)
 {
@@ -147,15 +161,7 @@ TEST_CASE("A wall, cut off at the radius, blocks what it should", "[core][bitmas
     ao::settings s = unfiltered(ao::preset::ultra);
     s.taps = 256;
     s.slices = 2;
-    std::vector<float> all(p.depth.size());
-    constexpr int seeds = 8;
-    for (int i = 0; i < seeds; ++i) {
-        s.seed = static_cast<std::uint32_t>(i + 1);
-        const std::vector<float> once = visibility(v, p, s);
-        for (std::size_t k = 0; k < all.size(); ++k) {
-            all[k] += once[k] / seeds;
-        }
-    }
+    const std::vector<float> all = mean_of_seeds(v, p, s, 8);
     const double pixel = 4.0 / v.width;
     for (const int away : { 3, 8, 16, 24, 31 }) { // pixels from the wall, of 32 in the radius
         const double h = away * pixel;            // texels stand where their centres are
@@ -169,6 +175,58 @@ TEST_CASE("A wall, cut off at the radius, blocks what it should", "[core][bitmas
     }
     // On top of the wall nothing stands over the pixel.
     CHECK(mean_of_columns(v, all, v.width / 2 + 1, v.width) == 1.0);
+}
+
+TEST_CASE("A dome and a drum on a floor block what they should", "[core][bitmask][closed]")
+{
+    // Seen from above, so that columns reach down to the floor. Of the dome a point of the floor at distance d sees a half ball
+    // whose middle is on its horizon: of cosine-weighted directions, projected to the unit disc, those of the segment beyond
+    // cos(beta), sin(beta) = a / d. The drum as high as it is wide: its side covers sectors of the disc down to its rim.
+    const bool dome = GENERATE(true, false);
+    constexpr double a = 0.5;
+    viewer v{ 121, 121, 2, true };
+    pictures p(v.width, v.height, 10.0F);
+    const double pixel = 4.0 / v.width;
+    for (int y = 0; y < v.height; ++y) {
+        for (int x = 0; x < v.width; ++x) {
+            const double across = std::hypot((x - 60) * pixel, (y - 60) * pixel);
+            if (across < a) {
+                const double height = dome ? std::sqrt(a * a - across * across) : a;
+                p.depth[p.index(x, y)] = static_cast<float>(10 - height);
+                p.normals[p.index(x, y)] =
+                    dome ? glm::vec3((x - 60) * pixel / a, (60 - y) * pixel / a, height / a) : glm::vec3(0, 0, 1);
+            }
+        }
+    }
+    ao::settings s = unfiltered(ao::preset::ultra, 4);
+    s.taps = 256;
+    s.slices = 1;
+    const std::vector<float> all = mean_of_seeds(v, p, s, 32);
+    for (const int away : { 18, 24, 36, 48 }) { // pixels from the middle; the dome's edge is at 15
+        const double d = away * pixel;
+        double hidden = 0;
+        const double beta = std::asin(a / d);
+        if (dome) {
+            hidden = (beta - std::sin(beta) * std::cos(beta)) / pi;
+        }
+        else {
+            constexpr int steps = 4000;
+            for (int i = 0; i < steps; ++i) {
+                const double phi = beta * (2 * (i + 0.5) / steps - 1);
+                const double near = d * std::cos(phi) - std::sqrt(a * a - d * d * std::sin(phi) * std::sin(phi));
+                const double rim = near / std::hypot(near, a); // sine of the angle to the normal
+                hidden += (1 - rim * rim) / 2 * (2 * beta / steps) / pi;
+            }
+        }
+        double found = 0;
+        for (const auto& [x, y] :
+             { std::pair(60 - away, 60), std::pair(60 + away, 60), std::pair(60, 60 - away), std::pair(60, 60 + away) }) {
+            found += 0.25 * (1 - static_cast<double>(all[p.index(x, y)]));
+        }
+        CAPTURE(dome, away, hidden, found);
+        CHECK(found == Approx(hidden).margin(0.02));
+        CHECK(found > 0.5 * hidden);
+    }
 }
 
 TEST_CASE("A floating square darkens nothing out of its reach", "[core][bitmask][closed]")
