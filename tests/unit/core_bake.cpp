@@ -71,12 +71,13 @@ TEST_CASE("walls through a vertex block what is behind them: the joints of a roo
         }
         const auto sums = ao::bake_vertex_reference(*job, i, 0, job->lines.size());
         const double value = static_cast<double>(sums.open) / sums.all;
-        CHECK(std::abs(value - (walls == 3 ? 0.25 : exact(a))) < (walls == 3 ? 2e-3 : 4e-3));
+        // Of 57 values that scatter by 7.8e-4 one is off by 2.1e-3; 20 000 directions bring all below 6e-4 (docs/numerics.md).
+        CHECK(std::abs(value - (walls == 3 ? 0.25 : exact(a))) < (walls == 3 ? 1e-3 : 2.5e-3));
         sum += value;
         exact_sum += walls == 3 ? 0.25 : exact(a);
         ++joint;
     }
-    CHECK(std::abs(sum - exact_sum) / joint < 1e-3);
+    CHECK(std::abs(sum - exact_sum) / joint < 5e-4);
 }
 
 namespace {

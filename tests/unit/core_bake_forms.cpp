@@ -74,10 +74,11 @@ mesh disc(double radius, double height)
     return m;
 }
 
-// Two planes that meet along y at the origin, `opening` apart and even about z; vertex 0 is in the middle of the edge.
+// Two planes that meet along y at the origin, `opening` apart and even about z; vertex 0 is in the middle of the edge. Not so
+// long that the start of its rays, some 2^-19 of the length above it, sees more than from the edge.
 mesh groove(double opening)
 {
-    const double long_way = 2000;
+    const double long_way = 50;
     const double x = std::sin(opening / 2);
     const double z = std::cos(opening / 2);
     mesh m;
@@ -122,7 +123,6 @@ TEST_CASE("discs and spheres over a plane, walls and grooves", "[bake]")
         mesh m;
         double uniform;
         double cosine;
-        double most; // difference
     };
     const double t = std::atan(0.75);
     mesh under_disc = speck(0.01);
@@ -130,26 +130,29 @@ TEST_CASE("discs and spheres over a plane, walls and grooves", "[bake]")
     mesh under_sphere = speck(0.01);
     append(under_sphere, sphere({ 0, 0, 2 }, 1, 5));
     mesh beside_wall = speck(0.001);
-    append(beside_wall, grid({ 1, -2000, 0 }, { 0, 4000, 0 }, { 0, 0, 0.75 }, 1));
+    append(beside_wall, grid({ 1, -100, 0 }, { 0, 200, 0 }, { 0, 0, 0.75 }, 1));
     beside_wall.normals.clear();
     const double wide = 1.2;
     const double acute = 0.15;
     const std::vector<form> forms{
-        { under_disc, std::cos(t), std::cos(t) * std::cos(t), 3e-3 },
-        { under_sphere, std::cos(std::asin(0.5)), 0.75, 3e-3 },
-        { beside_wall, 1 - t / std::numbers::pi, (1 + std::cos(t)) / 2, 3e-3 },
-        { groove(wide), wide / std::numbers::pi, std::sin(wide / 2),
-          1e-2 }, // bounded by two half circles, the longest edges that there are
-        { groove(acute), acute / std::numbers::pi, std::sin(acute / 2), 1e-2 },
+        { under_disc, std::cos(t), std::cos(t) * std::cos(t) },
+        { under_sphere, std::cos(std::asin(0.5)), 0.75 },
+        { beside_wall, 1 - t / std::numbers::pi, (1 + std::cos(t)) / 2 },
+        { groove(wide), wide / std::numbers::pi, std::sin(wide / 2) },
+        { groove(acute), acute / std::numbers::pi, std::sin(acute / 2) },
     };
     for (std::size_t i = 0; i < forms.size(); ++i) {
-        CAPTURE(i);
-        const ao::bake_result uniform = baked(forms[i].m);
-        const ao::bake_result cosine = baked(forms[i].m, by_cosine);
-        CHECK(off(uniform.coefficients[0], forms[i].uniform) < forms[i].most);
-        CHECK(off(cosine.coefficients[0], forms[i].cosine) < forms[i].most);
-        CHECK(off(uniform.coefficients[0], forms[i].uniform) < 4 * static_cast<double>(uniform.errors[0]) + 1e-4);
-        CHECK(off(cosine.coefficients[0], forms[i].cosine) < 4 * static_cast<double>(cosine.errors[0]) + 1e-4);
+        for (const ao::sphere_rule& rule : { lebedev(5810), *ao::fibonacci_rule(20000) }) {
+            CAPTURE(i, rule.size());
+            const double most = rule.size() > 10000 ? 2e-3 : 3e-3; // by the law of rules 5e-3 were as good as 2e-3
+            for (const bool cosine : { false, true }) {
+                const ao::bake_job job = prepared(forms[i].m, rule, cosine ? by_cosine : ao::bake_settings{});
+                const ao::bake_result r = ao::finish_bake(job, summed(job));
+                const double error = off(r.coefficients[0], cosine ? forms[i].cosine : forms[i].uniform);
+                CHECK(error < most);
+                CHECK(error < 4 * static_cast<double>(r.errors[0]) + 1e-4);
+            }
+        }
     }
 }
 
@@ -271,7 +274,7 @@ TEST_CASE("bent normals, the ground, and normals of both kinds", "[bake]")
     // In a right-angled groove the mean open direction of the edge leaves it evenly.
     ao::bake_settings bent{ .bent_normals = true };
     const ao::bake_result r = baked(groove(std::numbers::pi / 2), bent);
-    CHECK(glm::length(r.bent[0] - glm::vec3(0, 0, 1)) < 5e-3F);
+    CHECK(glm::length(r.bent[0] - glm::vec3(0, 0, 1)) < 2e-3F);
     // A sphere on the ground: the vertex at its equator sees half.
     ao::bake_settings on_ground{ .ground = true, .ground_up = { 0, 0, 2 }, .ground_height = -1 };
     const mesh ball = sphere({ 0, 0, 0 }, 1, 3);
@@ -283,17 +286,16 @@ TEST_CASE("bent normals, the ground, and normals of both kinds", "[bake]")
     }
     // Shared vertices of a concave edge see as much by either normal, but not by the cosine (vertex-ao.md 5.5).
     mesh corner;
-    append(corner, grid({ 0, -500, 0 }, { 1, 0, 0 }, { 0, 1000, 0 }, 2));
-    append(corner, grid({ 0, -500, 0 }, { 0, 1000, 0 }, { 0, 0, 1 }, 2));
+    append(corner, grid({ 0, -50, 0 }, { 1, 0, 0 }, { 0, 100, 0 }, 2));
+    append(corner, grid({ 0, -50, 0 }, { 0, 100, 0 }, { 0, 0, 1 }, 2));
     const mesh shared = welded(corner);
-    constexpr double most = 4.6e-3; // of this rule beside walls at any angle (vertex-ao.md 5.2)
     for (const auto& [m, cosine] : { std::pair(corner, 0.5), std::pair(shared, std::numbers::sqrt2 / 2) }) {
         const ao::bake_result uniform = baked(m);
         const ao::bake_result weighted = baked(m, by_cosine);
         for (std::size_t i = 0; i < m.positions.size(); ++i) {
             if (m.positions[i] == glm::dvec3(0.0)) {
-                CHECK(off(uniform.coefficients[i], 0.5) < most);
-                CHECK(off(weighted.coefficients[i], cosine) < most);
+                CHECK(off(uniform.coefficients[i], 0.5) < 2e-3);
+                CHECK(off(weighted.coefficients[i], cosine) < 2e-3);
             }
         }
     }

@@ -72,7 +72,8 @@ subject make_subject(int which)
 
 } // namespace
 
-TEST_CASE("estimated errors of random directions are true within a factor of 2, of spread ones seldom too small", "[bake][error]")
+TEST_CASE("estimated errors of random directions are true within a factor of 2, of spread ones from half to four times",
+          "[bake][error]")
 {
     const int which = GENERATE(0, 1, 2, 3);
     const subject s = make_subject(which);
@@ -88,7 +89,7 @@ TEST_CASE("estimated errors of random directions are true within a factor of 2, 
         CAPTURE(which, points, of_random, of_spread);
         CHECK(of_random > 0.5);
         CHECK(of_random < 2);
-        CHECK(of_spread > 0.8);
+        CHECK(of_spread > 0.5);
         CHECK(of_spread < 4);
     }
 }
