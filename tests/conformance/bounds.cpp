@@ -74,6 +74,7 @@ struct ao::detail::bits_of<careless, std::int32_t, std::uint32_t> {
     static std::int32_t exponent(careless a) { return single::exponent(a.x); }
     static careless power_of_two(std::int32_t n) { return single::power_of_two(n); }
     static careless real(std::uint32_t bits) { return single::real(bits); }
+    static careless inverse_root_guess(careless a) { return single::inverse_root_guess(a.x); }
 };
 
 namespace {

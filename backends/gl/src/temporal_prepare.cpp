@@ -18,8 +18,8 @@ namespace ao::gl {
 namespace {
 
 // Constant ids of the shaders: options in the order of temporal_options, then the group size.
-constexpr std::array<GLuint, 13> accumulate_ids{ 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 13, 14 };
-constexpr std::array<GLuint, 5> filter_ids{ 2, 9, 11, 13, 14 };
+constexpr std::array<GLuint, 14> accumulate_ids{ 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 13, 14, 15 };
+constexpr std::array<GLuint, 5> filter_ids{ 2, 9, 11, 14, 15 };
 
 source source_of(temporal_pass_type type)
 {
