@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 namespace ao::cpu::detail {
 
@@ -58,6 +59,10 @@ struct memory<float> {
     static std::array<integer, 3> gather_triples(const std::byte* data, integer index)
     {
         return { gather(data, index), gather(data + 4, index), gather(data + 8, index) };
+    }
+    static std::array<integer, 2> load_pairs(const std::byte* data, integer index)
+    {
+        return { gather(data, index), gather(data + 4, index) };
     }
     static integer gather(const std::byte* data, integer index)
     {
@@ -116,6 +121,19 @@ struct memory<lanes<float, N, Tag>> {
         }
         return gather(data, index);
     }
+    // The words at data + 4 * index, index >= 0, and the one behind each, of texels of two words; quick where these lie side by
+    // side.
+    static std::array<integer, 2> load_pairs(const std::byte* data, integer index)
+    {
+        if (instructions::equal(index.v, ascending(index[0], 2, N).v)) {
+            const std::byte* at = data + std::size_t{ 4 } * static_cast<std::uint32_t>(index[0]);
+            const words low = load_words(at).v;
+            const words high = load_words(at + std::size_t{ 4 } * N).v;
+            return { every_second<0>(low, high, std::make_integer_sequence<int, N>{}),
+                     every_second<1>(low, high, std::make_integer_sequence<int, N>{}) };
+        }
+        return { gather(data, index), gather(data + 4, index) };
+    }
     // The words at data + 4 * index, index >= 0.
     static integer gather(const std::byte* data, integer index) { return integer(instructions::gather(data, index.v)); }
     // The words at data + 4 * index, index >= 0, and the two behind each, of texels of four words; quick where these lie side by
@@ -158,6 +176,13 @@ struct memory<lanes<float, N, Tag>> {
         for (int i = 0; i < count; ++i) {
             target[i] = static_cast<std::byte>(value[i]);
         }
+    }
+
+private:
+    template <int First, int... Lane>
+    static integer every_second(words low, words high, std::integer_sequence<int, Lane...>)
+    {
+        return integer(__builtin_shufflevector(low, high, (2 * Lane + First)...));
     }
 };
 

@@ -51,8 +51,10 @@ struct reader {
     vec4 normal(ivec2 pixel) const
     {
         switch (format) {
-        case pixel_format::rgba16f:
-            return vec4(half(pixel, 0), half(pixel, 1), half(pixel, 2), Real(0));
+        case pixel_format::rgba16f: {
+            const auto words = memory::load_pairs(data, pixel.y * integer(row_words) + pixel.x * integer(pixel_words));
+            return vec4(memory::half(words[0]), memory::half(memory::shift_right(words[0], 16)), memory::half(words[1]), Real(0));
+        }
         case pixel_format::rgb10a2:
             return vec4(unorm(pixel, 0, 10), unorm(pixel, 10, 10), unorm(pixel, 20, 10), Real(0));
         case pixel_format::rg16:
