@@ -1,3 +1,5 @@
+include("${PROJECT_SOURCE_DIR}/cmake/ao_fault.cmake")
+
 # ao_plant_bake(name source file "right" "wrong" "test case"): with the fault in backends/cpu/src/<file>, which <source> is or
 # includes, the raster's tests must fail. The right text must occur once, so that a fault cannot get lost when the source changes.
 function(ao_plant_bake name source file right wrong case)
@@ -9,12 +11,7 @@ function(ao_plant_bake name source file right wrong case)
         configure_file("${from}/${each}" "${copy}/${each}" COPYONLY)
     endforeach()
     file(READ "${from}/${file}" text)
-    string(FIND "${text}" "${right}" first)
-    string(FIND "${text}" "${right}" last REVERSE)
-    if(first EQUAL -1 OR NOT first EQUAL last)
-        message(FATAL_ERROR "${file}: \"${right}\" does not occur once; plant the fault \"${name}\" elsewhere")
-    endif()
-    string(REPLACE "${right}" "${wrong}" text "${text}")
+    ao_fault(text "${file}" "${name}" "${right}" "${wrong}")
     file(WRITE "${copy}/${file}" "${text}")
     # What is linked as an object is not taken from the library.
     add_executable(planted_${name} unit/cpu_bake_closed.cpp "${copy}/${source}")

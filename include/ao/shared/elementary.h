@@ -49,7 +49,7 @@ AO_FN real ao_exp2(real x)
 }
 
 // Within 6.6e-4 of 1 / sqrt(x), relative, for normal x; finite for 0 and denormals. A start from halved exponent bits and one
-// step of Newton's method with the constants of Kadlec (2010): a tenth of the time of a root and a division in lanes.
+// step of Newton's method with the constants of Kadlec (2010).
 AO_FN real ao_inverse_root(real x)
 {
     real start = ao_inverse_root_guess(x);

@@ -1,8 +1,8 @@
-// Taps of the slices of a pixel's hemisphere, for the method `bitmask`. A slice holds the view vector V and a direction D of the
-// picture's plane. A tap Q on either side of the pixel P stands for the column from Q to Q - thickness V, clipped to the sphere
-// of the radius about P and to the tangent plane; the sectors between its ends are blocked. Beyond the picture's border nothing
-// is known: a tap there is taken at the border. Callbacks: real ao_load_depth(ivec2): eye depth, 0 or less, NaN or infinite for
-// background. Options: bool ao_parallel.
+// Taps of the slices of a pixel's hemisphere, for the method `bitmask`. A slice goes from the view vector V towards a direction D
+// of the picture's plane. A tap Q along it stands for the column from Q to Q - thickness V, clipped to the sphere of the radius
+// about the pixel's point and to the tangent plane; the sectors between its ends are blocked.
+// Beyond the picture's border nothing is known: a tap there is taken at the border.
+// Callbacks: real ao_load_depth(ivec2): eye depth, 0 or less, NaN or infinite for background. Options: bool ao_parallel.
 
 // What the slices of one pixel have in common. Lengths in units of the radius; "slope": of a ray from the eye, x / -z.
 struct ao_slice_space {
