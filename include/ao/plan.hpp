@@ -39,9 +39,10 @@ struct facts {
     pixel_format depth_format = pixel_format::r32f;
     normal_source normals = normal_source::vector;
     pixel_format normal_format = pixel_format::rgba16f;
-    bool world_normals = false;                      // stored in world space: camera::normal_to_view turns them
-    bool parallel = false;                           // parallel projection
-    pixel_format output_format = pixel_format::r32f; // or r8
+    bool world_normals = false; // stored in world space: camera::normal_to_view turns them
+    bool parallel = false;      // parallel projection
+    // r32f or r8; rgba16f, and only that, with settings::bent_normal.
+    pixel_format output_format = pixel_format::r32f;
 };
 
 // Eye depths beyond are background: products with them would leave the range of floats.
@@ -70,6 +71,7 @@ struct pass_options {
     bool mark_background = false;
     int filter_radius = 0;
     int slice_count = 1;
+    bool bent_normal = false;
 
     friend constexpr bool operator==(const pass_options&, const pass_options&) = default;
 };
@@ -97,7 +99,8 @@ struct pass {
     pass_type type{};
     pass_options options;
     // linearize: depth. occlusion, bitmask: eye depth, normal (or none), rotation. filter_rows: visibility. filter_columns: row
-    // sums. denoise_rows, denoise_columns: packed visibility and eye depth (packed_visibility.h), normal (or none).
+    // sums. denoise_rows, denoise_columns: packed visibility and eye depth (packed_visibility.h) and, of bent normals, packed
+    // mean directions (bent_normal.h); normal (or none).
     std::array<image_id, 3> inputs{ image_id::none, image_id::none, image_id::none };
     image_id output = image_id::none;
     // The shared constants struct of the pass, as bytes.
@@ -148,7 +151,7 @@ constexpr void set_constants(Pass& p, const Constants& constants)
     p.constants_size = bytes.size();
 }
 
-constexpr std::optional<error> validate(const facts& f)
+constexpr std::optional<error> validate(const facts& f, bool bent_normal = false)
 {
     using enum pixel_format;
     const auto fail = [](errc code, const char* why) { return error(code, why); };
@@ -171,7 +174,10 @@ constexpr std::optional<error> validate(const facts& f)
     if (!normal_fits) {
         return fail(errc::unsupported_format, "normal format does not fit the normal source");
     }
-    if (f.output_format != r32f && f.output_format != r8) {
+    if (bent_normal && f.output_format != rgba16f) {
+        return fail(errc::unsupported_format, "visibility with bent normals must be rgba16f");
+    }
+    if (!bent_normal && f.output_format != r32f && f.output_format != r8) {
         return fail(errc::unsupported_format, "visibility must be r32f or r8");
     }
     return std::nullopt;
@@ -298,7 +304,7 @@ constexpr result<plan> make_plan(const settings& s, const facts& f, const camera
     if (const auto wrong = validate(s)) {
         return *wrong;
     }
-    if (const auto wrong = detail::validate(f)) {
+    if (const auto wrong = detail::validate(f, s.bent_normal)) {
         return *wrong;
     }
     plan p{ s, f, {}, {} };
@@ -326,13 +332,15 @@ constexpr result<plan> make_plan(const settings& s, const facts& f, const camera
     occlusion.options.parallel = f.parallel;
     occlusion.options.limit_thickness = !sliced && s.thickness <= std::numeric_limits<float>::max();
     occlusion.options.mark_background = filtered;
+    occlusion.options.bent_normal = s.bent_normal;
     occlusion.inputs = { depth, f.normals == normal_source::from_depth ? image_id::none : image_id::normal, image_id::rotation };
     occlusion.output = filtered ? image_id::raw_visibility : image_id::visibility;
     p.passes.push_back(occlusion);
 
     if (filtered) {
-        p.transients.push_back({ image_id::raw_visibility, sliced ? pixel_format::rg32f : pixel_format::r32f });
-        p.transients.push_back({ image_id::row_sums, pixel_format::rg32f });
+        const pixel_format packed = s.bent_normal ? pixel_format::rgba32f : pixel_format::rg32f;
+        p.transients.push_back({ image_id::raw_visibility, sliced ? packed : pixel_format::r32f });
+        p.transients.push_back({ image_id::row_sums, packed });
         pass rows;
         rows.type = sliced ? pass_type::denoise_rows : pass_type::filter_rows;
         rows.options.filter_radius = s.filter / 2;
@@ -340,6 +348,7 @@ constexpr result<plan> make_plan(const settings& s, const facts& f, const camera
             rows.options.normal_source = occlusion.options.normal_source;
             rows.options.rotate_normals = occlusion.options.rotate_normals;
             rows.options.parallel = f.parallel;
+            rows.options.bent_normal = s.bent_normal;
         }
         rows.inputs = { image_id::raw_visibility, sliced ? occlusion.inputs[1] : image_id::none, image_id::none };
         rows.output = image_id::row_sums;

@@ -32,6 +32,8 @@ struct settings {
     // How far behind a surface an offset still counts as occluded, in radii, > 0. Infinite as printed in paper 1; the finite
     // default keeps a foreground object from darkening what lies far behind it. Of bitmask: of whatever a depth shows, best at 1.
     float thickness = 2.0F;
+    // Of bitmask: also the mean unoccluded direction (docs/integrating.md); facts::output_format is rgba16f then, for both.
+    bool bent_normal = false;
     int filter = 5;         // pixels a side, odd, 1 (no filter) ... max_filter
     std::uint32_t seed = 1; // of the random kernels and the rotations
 };
@@ -51,6 +53,9 @@ constexpr std::optional<error> validate(const settings& s)
     }
     if (s.method == method::bitmask && s.taps % s.slices != 0) {
         return error(errc::invalid_settings, "taps must be a multiple of the slices");
+    }
+    if (s.bent_normal && s.method != method::bitmask) {
+        return error(errc::invalid_settings, "bent normals come from the method bitmask");
     }
     if (!(s.radius > 0 && s.radius <= limit)) {
         return error(errc::invalid_settings, "radius must be greater than 0 and at most 1e15");

@@ -30,7 +30,9 @@ struct shade_facts {
     pixel_format normal_format = pixel_format::rgba16f;
     bool parallel = false;
     bool visibility = true;                              // else everything counts as open
-    pixel_format visibility_format = pixel_format::r32f; // or r8
+    pixel_format visibility_format = pixel_format::r32f; // or r8; rgba16f, and only that, with bent_normal
+    bool bent_normal = false;  // look ambient light up along the bent normal that comes with visibility; needs visibility
+    bool multi_bounce = false; // tint visibility by the diffuse reflectance (ao_bounced_visibility); needs visibility
 };
 
 struct shade_camera {
@@ -48,6 +50,8 @@ struct shade_options {
     bool reflections = false; // reads the heap
     bool frames = false;      // reads the frame target; only with maps
     bool blends = false;
+    bool bent_normal = false;
+    bool multi_bounce = false;
 
     friend constexpr bool operator==(const shade_options&, const shade_options&) = default;
 };
@@ -99,7 +103,10 @@ constexpr std::optional<error> validate(const shade_facts& f)
     if (f.normals == normal_source::from_depth) {
         return error(errc::unsupported_format, "shading needs stored normals");
     }
-    return validate(as_read);
+    if ((f.bent_normal || f.multi_bounce) && !f.visibility) {
+        return error(errc::invalid_settings, f.bent_normal ? "bent normals come with a visibility" : "bounces need a visibility");
+    }
+    return validate(as_read, f.bent_normal);
 }
 
 class word_writer {
@@ -298,6 +305,8 @@ inline result<shade_plan> make_shade_plan(const scene& s, const shade_facts& f, 
     plan.options.parallel = f.parallel;
     plan.options.normal_source = static_cast<int>(f.normals);
     plan.options.visibility = f.visibility;
+    plan.options.bent_normal = f.bent_normal;
+    plan.options.multi_bounce = f.multi_bounce;
 
     detail::word_writer w;
     w.words.resize(static_cast<std::size_t>(layout::ao_header_words), 0);

@@ -10,8 +10,8 @@
 
 namespace ao {
 
-// Resources: vec4 geometry, normal, surface, frame (ivec2), uvec2 ids(ivec2), real visibility(ivec2), vec4 target(int, ivec2),
-// uint word(uint) of the table, uint texel(uint) of the heap, void count_clamped(uint).
+// Resources: vec4 geometry, normal, surface, frame (ivec2), uvec2 ids(ivec2), real visibility(ivec2), vec3 bent_normal(ivec2),
+// vec4 target(int, ivec2), uint word(uint) of the table, uint texel(uint) of the heap, void count_clamped(uint).
 template <class Real, class Resources>
 struct shading_pass {
 #include "ao/detail/scope.inc"
@@ -27,6 +27,8 @@ struct shading_pass {
     bool ao_use_reflections = false;
     bool ao_use_frames = false;
     bool ao_use_blends = false;
+    bool ao_use_bent_normal = false;
+    bool ao_use_bounces = false;
 
     constexpr vec4 ao_load_geometry(ivec2 pixel)
     {
@@ -51,6 +53,10 @@ struct shading_pass {
     constexpr real ao_load_visibility(ivec2 pixel)
     {
         return resources.visibility(pixel);
+    }
+    constexpr vec3 ao_load_bent_normal(ivec2 pixel)
+    {
+        return resources.bent_normal(pixel);
     }
     constexpr vec4 ao_load_target(int target, ivec2 pixel)
     {

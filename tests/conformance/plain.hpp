@@ -65,6 +65,7 @@ struct resources {
     float visibility(glm::ivec2 p) const { return fetch(0, p).x; }
     glm::vec2 row_sum(glm::ivec2 p) const { return glm::vec2(fetch(0, p)); }
     glm::vec2 packed(glm::ivec2 p) const { return glm::vec2(fetch(0, p)); }
+    glm::vec2 directions(glm::ivec2 p) const { return { fetch(0, p).z, fetch(0, p).w }; }
 };
 
 class backend {
@@ -144,22 +145,31 @@ private:
         if (each.type == ao::pass_type::bitmask) {
             const int taps = planted == fault::last_tap_lost ? o.tap_count - 2 : o.tap_count;
             ao::bitmask_pass<float, resources> body{
-                read, taps, o.slice_count, o.normal_source, o.rotate_normals, o.parallel, o.mark_background
+                read, taps, o.slice_count, o.normal_source, o.rotate_normals, o.parallel, o.mark_background, o.bent_normal
             };
             auto c = ao::constants_of<ao::occlusion_constants>(each);
             c.bias = planted == fault::bias_ignored ? 0.0F : c.bias;
             c.thickness = planted == fault::thickness_ignored ? 1e30F : c.thickness;
             const auto constants = std::bit_cast<decltype(body)::ao_occlusion_constants>(c);
+            if (o.bent_normal) {
+                return o.mark_background ? body.ao_bitmask_bent_packed_pass(constants, pixel)
+                                         : body.ao_bitmask_bent_pass(constants, pixel);
+            }
             if (o.mark_background) {
                 return { body.ao_bitmask_packed_pass(constants, pixel), 0, 0 };
             }
             return { body.ao_bitmask_pass(constants, pixel).visibility, 0, 0, 0 };
         }
         if (each.type == ao::pass_type::denoise_rows || each.type == ao::pass_type::denoise_columns) {
-            ao::denoise_pass<float, resources> body{ read, o.filter_radius, o.normal_source, o.rotate_normals, o.parallel };
+            ao::denoise_pass<float, resources> body{ read,       o.filter_radius, o.normal_source, o.rotate_normals,
+                                                     o.parallel, o.bent_normal };
             auto c = ao::constants_of<ao::denoise_constants>(each);
             c.width -= planted == fault::border_short ? 1.0F : 0.0F;
             const auto constants = std::bit_cast<decltype(body)::ao_denoise_constants>(c);
+            if (o.bent_normal) {
+                return each.type == ao::pass_type::denoise_rows ? body.ao_denoise_rows_bent_pass(constants, pixel)
+                                                                : body.ao_denoise_columns_bent_pass(constants, pixel);
+            }
             if (each.type == ao::pass_type::denoise_rows) {
                 return { body.ao_denoise_rows_pass(constants, pixel), 0, 0 };
             }

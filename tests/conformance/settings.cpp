@@ -59,6 +59,12 @@ const std::vector<change> changes{
     { "kernel box", [](frame_input& in) { in.settings.method = method::box; } },
     { "kernel halton", [](frame_input& in) { in.settings.method = method::halton; } },
     { "bitmask", [](frame_input& in) { in.settings.method = method::bitmask; } },
+    { "bent normal",
+      [](frame_input& in) {
+          in.settings.method = method::bitmask;
+          in.settings.bent_normal = true;
+          in.facts.output_format = pixel_format::rgba16f;
+      } },
     { "taps", [](frame_input& in) { in.settings.taps = 33; } },
     { "radius", [](frame_input& in) { in.settings.radius = 0.85F; } },
     { "bias", [](frame_input& in) { in.settings.bias = 0.03F; } },

@@ -51,8 +51,13 @@ struct plain_subject {
         effect->record({}, *bound);
         ao::picture out(known.output_format, known.width, known.height);
         for (std::size_t i = 0; i < out.pixels(); ++i) {
-            const float v = visibility.texels[i].x;
-            if (out.format == ao::pixel_format::r8) {
+            const glm::vec4 texel = visibility.texels[i];
+            const float v = texel.x;
+            if (out.format == ao::pixel_format::rgba16f) {
+                out.set_texel(i, std::array{ ao::float_to_half(v), ao::float_to_half(texel.y), ao::float_to_half(texel.z),
+                                             ao::float_to_half(texel.w) });
+            }
+            else if (out.format == ao::pixel_format::r8) {
                 out.set_texel(i, static_cast<std::uint8_t>(std::nearbyint(v * 255.0F)));
             }
             else {

@@ -26,6 +26,7 @@ struct shaded_pixel {
     float footprint = 0;
     float side = 1;
     float visibility = 1;
+    glm::vec3 opening{ 0, 0, 1 }; // stored with visibility where the fixture has bent normals
     int material = 0;
     bool background = false;
     glm::vec4 frame{ 0 };
@@ -49,6 +50,8 @@ struct shading_fixture {
     std::vector<ao::mesh> meshes{ 1 };
     bool stored_position = true;
     bool visibility = true;
+    bool bent_normal = false;
+    bool multi_bounce = false;
 
     int add_texture(int width, int height, std::vector<std::uint8_t> texels, bool srgb = false)
     {
@@ -97,6 +100,9 @@ struct shading_fixture {
         f.stored_position = stored_position;
         f.normal_format = ao::pixel_format::rgba32f;
         f.visibility = visibility;
+        f.bent_normal = bent_normal;
+        f.visibility_format = bent_normal ? ao::pixel_format::rgba16f : ao::pixel_format::r32f;
+        f.multi_bounce = multi_bounce;
         auto made = ao::make_shade_plan(scene(), f, camera, settings);
         if (!made) {
             throw std::runtime_error(std::string(made.error().reason()));
@@ -111,7 +117,7 @@ struct shading_fixture {
         in.geometry = ao::picture(stored_position ? rgba32f : d32f, width, 1);
         in.normal = in.surface = in.frame = ao::picture(rgba32f, width, 1);
         in.ids = ao::picture(rg32ui, width, 1);
-        in.visibility = ao::picture(r32f, width, 1);
+        in.visibility = ao::picture(bent_normal ? rgba16f : r32f, width, 1);
         for (std::size_t i = 0; i < pixels.size(); ++i) {
             const shaded_pixel& p = pixels[i];
             if (stored_position) {
@@ -128,6 +134,11 @@ struct shading_fixture {
             in.frame.set_texel(i, p.frame);
             in.ids.set_texel(i, p.background ? glm::uvec2(0)
                                              : glm::uvec2(static_cast<unsigned>(i + 1), static_cast<unsigned>(p.material + 1)));
+            if (bent_normal) {
+                in.visibility.set_texel(i, std::array{ ao::float_to_half(p.visibility), ao::float_to_half(p.opening.x),
+                                                       ao::float_to_half(p.opening.y), ao::float_to_half(p.opening.z) });
+                continue;
+            }
             in.visibility.set_texel(i, p.visibility);
         }
         return in;

@@ -73,6 +73,11 @@ TEST_CASE("the CPU blends as the reference does, in every bit, fused, cut and as
     with_every_division([](const run_function& f) { check_blending(f); });
 }
 
+TEST_CASE("the CPU takes ambient light along bent normals and with bounces as the reference does, in every bit")
+{
+    with_every_division([](const run_function& f) { check_openings(f); });
+}
+
 TEST_CASE("the CPU clamps and counts weights outside [0, 1]")
 {
     with_every_division([](const run_function& f) { check_clamping(f); });

@@ -62,6 +62,14 @@ TEST_CASE("OpenGL shades as scalar C++ does, in every bit, with what the materia
     check_shading([&](const auto& plan, const auto& heap, const auto& in) { return run(text, plan, heap, in); }, 3, 3);
 }
 
+TEST_CASE("OpenGL takes ambient light along bent normals and with bounces as scalar C++ does, in every bit")
+{
+    for (const auto source : { ao::gl::shader_source::spirv, ao::gl::shader_source::text }) {
+        auto gl = executor(source);
+        check_openings([&](const auto& plan, const auto& heap, const auto& in) { return run(gl, plan, heap, in); });
+    }
+}
+
 TEST_CASE("OpenGL blends as scalar C++ does, in every bit, fused, cut and as in the paper")
 {
     auto gl = executor(ao::gl::shader_source::spirv);

@@ -4,6 +4,7 @@
 
 #include "ao/conformance/pictures.hpp"
 #include "ao/conformance/shade_reference.hpp"
+#include "ao/half.hpp"
 #include "unit/picture_test.hpp"
 
 #include <catch2/catch.hpp>
@@ -14,6 +15,7 @@
 #include <cstdint>
 #include <functional>
 #include <random>
+#include <utility>
 #include <vector>
 
 namespace shade_test {
@@ -144,7 +146,13 @@ inline ao::conformance::shade_inputs random_inputs(random_scene& from, const ao:
         in.surface.set_texel(i, glm::vec4(6 * from.unit() - 3, 6 * from.unit() - 3, footprint, from.chance(0.5F) ? 1.0F : -1.0F));
         in.frame.set_texel(
             i, ao::math<float>::ao_packed_frame(noise.normals[i], other.normals[i], from.chance(0.5F) ? 1.0F : -1.0F));
-        if (f.visibility_format == pixel_format::r8) {
+        if (f.bent_normal) {
+            // Some of them are no directions.
+            const glm::vec3 d = (from.chance(0.1F) ? 0.0F : from.chance(0.1F) ? std::nanf("") : 1.0F) * other.normals[i];
+            in.visibility.set_texel(i, std::array{ ao::float_to_half(from.unit()), ao::float_to_half(d.x), ao::float_to_half(d.y),
+                                                   ao::float_to_half(d.z) });
+        }
+        else if (f.visibility_format == pixel_format::r8) {
             in.visibility.set_texel(i, static_cast<std::uint8_t>(from.below(256)));
         }
         else {
@@ -252,6 +260,31 @@ inline void check_blending(const run_function& run, const std::vector<int>& regi
             INFO("maps " << maps << ", registers " << registers << ", passes " << plan->passes.size());
             require_reference(run, *plan, *heap, random_inputs(scene, f, view.projection));
         }
+    }
+}
+
+// Ambient light along bent normals, and visibility tinted by the albedo, with leaves that have normals of their own.
+inline void check_openings(const run_function& run)
+{
+    for (const auto& [bent, bounces] : { std::pair(true, false), std::pair(false, true), std::pair(true, true) }) {
+        random_scene scene(91, true, true, 14);
+        ao::shade_facts f = facts();
+        f.bent_normal = bent;
+        f.multi_bounce = bounces;
+        f.visibility_format = bent ? pixel_format::rgba16f : pixel_format::r32f;
+        const auto view = camera(false);
+        const auto plan = ao::make_shade_plan(scene.get(), f, view);
+        REQUIRE(plan);
+        CHECK(plan->options.frames);
+        const auto heap = ao::make_texel_heap(scene.get().textures);
+        REQUIRE(heap);
+        INFO("bent normals " << bent << ", bounces " << bounces);
+        const auto inputs = random_inputs(scene, f, view.projection);
+        const ao::picture color = require_bits(run, *plan, *heap, inputs).color;
+        // Neither option is without effect.
+        ao::shade_plan without = *plan;
+        (bounces ? without.options.multi_bounce : without.options.bent_normal) = false;
+        CHECK(differing(color, ao::conformance::reference_color(without, *heap, inputs)) > 100);
     }
 }
 

@@ -97,6 +97,7 @@ TEST_CASE("Vulkan blends as scalar C++ does, in every bit, fused, cut and as in 
     auto vk = executor();
     const auto on_device = [&](const auto& plan, const auto& heap, const auto& in) { return run(vk, plan, heap, in); };
     check_blending(on_device);
+    check_openings(on_device);
     check_clamping(on_device);
     check_silence();
 }

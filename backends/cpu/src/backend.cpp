@@ -28,6 +28,16 @@ void fill_rotation(float* to, std::span<const glm::vec2> rotation)
 
 } // namespace detail
 
+namespace {
+
+// Floats of a texel between the passes.
+std::size_t components(pixel_format format)
+{
+    return static_cast<std::size_t>(bytes_per_pixel(format)) / sizeof(float);
+}
+
+} // namespace
+
 backend::backend(std::unique_ptr<detail::machine> m) : machine_(std::move(m)) {}
 backend::backend(backend&&) noexcept = default;
 backend& backend::operator=(backend&&) noexcept = default;
@@ -69,7 +79,7 @@ result<program> backend::prepare(const plan& p)
         detail::aligned_floats& target = each.id == image_id::linear_depth     ? made.linear_depth_
                                          : each.id == image_id::raw_visibility ? made.raw_visibility_
                                                                                : made.row_sums_;
-        target = detail::allocate(each.format == pixel_format::rg32f ? 2 * pixels : pixels);
+        target = detail::allocate(components(each.format) * pixels);
         complete = complete && target;
     }
     if (!complete) {
@@ -132,18 +142,22 @@ void backend::record_pass(commands, program& prepared, binding& bound, const pla
     a.source = find(each.inputs[0]);
     a.normal = find(each.inputs[1]);
     a.target = find(each.output);
-    // A picture of two components keeps the second one behind the first.
-    const auto second = [&](image_id id) -> detail::plane {
+    // A picture of several components keeps each one behind the one before.
+    const auto component = [&](image_id id, std::size_t i) -> detail::plane {
         const detail::aligned_floats* of = nullptr;
         for (const transient_image& transient : p.transients) {
-            if (transient.id == id && transient.format == pixel_format::rg32f) {
+            if (transient.id == id && i < components(transient.format)) {
                 of = id == image_id::row_sums ? &prepared.row_sums_ : &prepared.raw_visibility_;
             }
         }
-        return of != nullptr ? detail::plane_of(*of, prepared.pitch_, pixels) : detail::plane{};
+        return of != nullptr ? detail::plane_of(*of, prepared.pitch_, i * pixels) : detail::plane{};
     };
-    a.source_second = second(each.inputs[0]);
-    a.target_second = second(each.output);
+    a.source_second = component(each.inputs[0], 1);
+    a.target_second = component(each.output, 1);
+    for (std::size_t i = 0; i < 2; ++i) {
+        a.source_directions[i] = component(each.inputs[0], 2 + i);
+        a.target_directions[i] = component(each.output, 2 + i);
+    }
     a.kernel = prepared.kernel_.get();
     a.rotation = prepared.rotation_.get();
     assert(a.source.data != nullptr && a.target.data != nullptr);
@@ -159,11 +173,11 @@ void backend::record_pass(commands, program& prepared, binding& bound, const pla
     case pass_type::filter_columns:
         return machine_->run(kernels.filter_columns, a);
     case pass_type::bitmask:
-        return machine_->run(kernels.bitmask[each.options.parallel ? 1 : 0], a);
+        return machine_->run(kernels.bitmask[each.options.parallel ? 1 : 0][each.options.bent_normal ? 1 : 0], a);
     case pass_type::denoise_rows:
-        return machine_->run(kernels.denoise_rows, a);
+        return machine_->run(kernels.denoise_rows[each.options.bent_normal ? 1 : 0], a);
     case pass_type::denoise_columns:
-        return machine_->run(kernels.denoise_columns, a);
+        return machine_->run(kernels.denoise_columns[each.options.bent_normal ? 1 : 0], a);
     }
 }
 

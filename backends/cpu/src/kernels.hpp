@@ -25,6 +25,8 @@ struct pass_arguments {
     plane source;        // depth, visibility or sums
     plane source_second; // component of a source of two
     plane target_second;
+    plane source_directions[2]; // third and fourth component, of bent normals
+    plane target_directions[2];
     plane normal;
     plane target;
     const float* kernel = nullptr;   // x, y, z, 0 per tap
@@ -80,9 +82,9 @@ struct kernel_table {
     kernel occlusion[2][2]; // [parallel][limit_thickness]
     kernel filter_rows;
     kernel filter_columns;
-    kernel bitmask[2]; // [parallel]
-    kernel denoise_rows;
-    kernel denoise_columns;
+    kernel bitmask[2][2]; // [parallel][bent_normal]
+    kernel denoise_rows[2];
+    kernel denoise_columns[2];
     const temporal_kernel_table& temporal;
 };
 

@@ -4,6 +4,7 @@
 #include "kernels.hpp"
 #include "resources.hpp"
 
+#include "ao/half.hpp"
 #include "ao/kernel.hpp"
 #include "ao/passes.hpp"
 
@@ -23,6 +24,7 @@ struct pass_kernels {
     using integer = typename math<Real>::integer;
     using ivec2 = typename math<Real>::ivec2;
     using vec2 = typename math<Real>::vec2;
+    using vec4 = typename math<Real>::vec4;
 
     // A shared constants struct: reals only.
     template <class Constants, class Arguments>
@@ -68,6 +70,31 @@ struct pass_kernels {
         // To nearest, ties to even, by the rounding of the sum.
         const Real rounded = value * Real(255.0F) + Real(8388608.0F);
         memory::store_bytes(at(p, x, y), integer(rounded - Real(8388608.0F)), count);
+    }
+
+    // rgba16f. The components are numbers that halves hold exactly.
+    static void store_halves(const plane& p, int x, int y, const vec4& texel, int count)
+    {
+        std::byte* row = p.data + static_cast<std::size_t>(y) * p.row_bytes + static_cast<std::size_t>(x) * 8;
+        float lanes[4][memory::width];
+        for (int i = 0; i < 4; ++i) {
+            memory::store(reinterpret_cast<std::byte*>(lanes[i]), texel[i], memory::width);
+        }
+        for (int lane = 0; lane < count; ++lane) {
+            std::uint16_t halves[4];
+            for (int i = 0; i < 4; ++i) {
+                halves[i] = float_to_half(lanes[i][lane]);
+            }
+            std::memcpy(row + 8 * static_cast<std::size_t>(lane), halves, 8);
+        }
+    }
+
+    static void store_packed(const pass_arguments& a, int x, int y, const vec4& packed, int count)
+    {
+        store(a.target, x, y, packed.x, count);
+        store(a.target_second, x, y, packed.y, count);
+        store(a.target_directions[0], x, y, packed.z, count);
+        store(a.target_directions[1], x, y, packed.w, count);
     }
 
     AO_CPU_KERNEL static void linearize(const pass_arguments& a, const tile& t)
@@ -135,7 +162,7 @@ struct pass_kernels {
         });
     }
 
-    template <bool Parallel>
+    template <bool Parallel, bool Bent>
     AO_CPU_KERNEL static void bitmask(const pass_arguments& a, const tile& t)
     {
         bitmask_pass<Real, occlusion_resources<Real>> pass{};
@@ -145,6 +172,7 @@ struct pass_kernels {
         pass.ao_rotate_normals = a.options.rotate_normals;
         pass.ao_parallel = Parallel;
         pass.ao_mark_background = a.options.mark_background;
+        pass.ao_bent_normal = Bent;
         pass.resources.eye_depth = reader<Real>(a.source);
         pass.resources.normals = reader<Real>(a.normal);
         pass.resources.rotation_x = rotation(a, 0);
@@ -152,6 +180,15 @@ struct pass_kernels {
         pass.resources.kernel = a.kernel;
         const auto c = constants<typename decltype(pass)::ao_occlusion_constants>(a);
         for_blocks(t, [&](ivec2 pixel, int x, int y, int count) {
+            if constexpr (Bent) {
+                if (a.options.mark_background) {
+                    store_packed(a, x, y, pass.ao_bitmask_bent_packed_pass(c, pixel), count);
+                }
+                else {
+                    store_halves(a.target, x, y, pass.ao_bitmask_bent_pass(c, pixel), count);
+                }
+                return;
+            }
             if (!a.options.mark_background) {
                 store(a.target, x, y, pass.ao_bitmask_pass(c, pixel).visibility, count);
                 return;
@@ -162,7 +199,7 @@ struct pass_kernels {
         });
     }
 
-    static denoise_pass<Real, denoise_resources<Real>> denoise(const pass_arguments& a)
+    static denoise_pass<Real, denoise_resources<Real>> denoise(const pass_arguments& a, bool bent)
     {
         denoise_pass<Real, denoise_resources<Real>> pass{};
         pass.ao_filter_radius = a.options.filter_radius;
@@ -172,25 +209,40 @@ struct pass_kernels {
         pass.resources.visibility = reader<Real>(a.source);
         pass.resources.eye_depth = reader<Real>(a.source_second);
         pass.resources.normals = reader<Real>(a.normal);
+        pass.ao_bent_normal = bent;
+        if (bent) {
+            pass.resources.open = reader<Real>(a.source_directions[0]);
+            pass.resources.whole = reader<Real>(a.source_directions[1]);
+        }
         return pass;
     }
 
+    template <bool Bent>
     AO_CPU_KERNEL static void denoise_rows(const pass_arguments& a, const tile& t)
     {
-        auto pass = denoise(a);
+        auto pass = denoise(a, Bent);
         const auto c = constants<typename decltype(pass)::ao_denoise_constants>(a);
         for_blocks(t, [&](ivec2 pixel, int x, int y, int count) {
+            if constexpr (Bent) {
+                store_packed(a, x, y, pass.ao_denoise_rows_bent_pass(c, pixel), count);
+                return;
+            }
             const vec2 packed = pass.ao_denoise_rows_pass(c, pixel);
             store(a.target, x, y, packed.x, count);
             store(a.target_second, x, y, packed.y, count);
         });
     }
 
+    template <bool Bent>
     AO_CPU_KERNEL static void denoise_columns(const pass_arguments& a, const tile& t)
     {
-        auto pass = denoise(a);
+        auto pass = denoise(a, Bent);
         const auto c = constants<typename decltype(pass)::ao_denoise_constants>(a);
         for_blocks(t, [&](ivec2 pixel, int x, int y, int count) {
+            if constexpr (Bent) {
+                store_halves(a.target, x, y, pass.ao_denoise_columns_bent_pass(c, pixel), count);
+                return;
+            }
             store(a.target, x, y, pass.ao_denoise_columns_pass(c, pixel), count);
         });
     }
@@ -202,9 +254,9 @@ struct pass_kernels {
             { { occlusion<false, false>, occlusion<false, true> }, { occlusion<true, false>, occlusion<true, true> } },
             filter_rows,
             filter_columns,
-            { bitmask<false>, bitmask<true> },
-            denoise_rows,
-            denoise_columns,
+            { { bitmask<false, false>, bitmask<false, true> }, { bitmask<true, false>, bitmask<true, true> } },
+            { denoise_rows<false>, denoise_rows<true> },
+            { denoise_columns<false>, denoise_columns<true> },
             temporal,
         };
     }

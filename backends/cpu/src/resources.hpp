@@ -119,8 +119,11 @@ struct denoise_resources {
     reader<Real> visibility;
     reader<Real> eye_depth;
     reader<Real> normals;
+    reader<Real> open;
+    reader<Real> whole;
 
     vec2 packed(ivec2 pixel) const { return vec2(visibility.loaded(pixel), eye_depth.loaded(pixel)); }
+    vec2 directions(ivec2 pixel) const { return vec2(open.loaded(pixel), whole.loaded(pixel)); }
     vec4 normal(ivec2 pixel) const { return normals.normal(pixel); }
 };
 

@@ -91,9 +91,17 @@ struct shade_resources {
         if (visibility_view.format == pixel_format::r8) {
             return static_cast<float>(std::to_integer<int>(*texel)) / 255.0F;
         }
+        if (visibility_view.format == pixel_format::rgba16f) {
+            return half_at(texel, 0);
+        }
         float stored = 0;
         std::memcpy(&stored, texel, sizeof stored);
         return stored;
+    }
+    glm::vec3 bent_normal(glm::ivec2 p) const
+    {
+        const std::byte* texel = detail::texel_at(visibility_view, p.x, p.y);
+        return { half_at(texel, 1), half_at(texel, 2), half_at(texel, 3) };
     }
     glm::vec4 target(int i, glm::ivec2 p) const { return program->targets[program->place(i, p)]; }
     std::uint32_t word(std::uint32_t i) const { return program->table[i]; }
@@ -101,6 +109,12 @@ struct shade_resources {
     void count_clamped(std::uint32_t n) { clamped += n; }
 
 private:
+    static float half_at(const std::byte* texel, std::size_t i)
+    {
+        std::uint16_t code = 0;
+        std::memcpy(&code, texel + 2 * i, sizeof code);
+        return half_to_float(code);
+    }
     static glm::vec4 four(const pixel_reader& from, glm::ivec2 p)
     {
         return { from.component(p, 0), from.component(p, 1), from.component(p, 2), from.component(p, 3) };
@@ -201,8 +215,8 @@ void shading::record_shading(commands, shade_program& program, shade_binding& bo
         }
     };
     workers_->over_tiles(state.width, state.height, [&](const detail::tile& t) {
-        body_type body{ resources, o.stored_position, o.parallel, o.normal_source, o.visibility,
-                        o.maps,    o.reflections,     o.frames,   o.blends };
+        body_type body{ resources,     o.stored_position, o.parallel, o.normal_source, o.visibility,  o.maps,
+                        o.reflections, o.frames,          o.blends,   o.bent_normal,   o.multi_bounce };
         for (int y = t.top; y < t.bottom; ++y) {
             for (int x = t.left; x < t.right; ++x) {
                 const glm::ivec2 pixel(x, y);

@@ -8,6 +8,7 @@ layout(constant_id = 3) const bool ao_rotate_normals = false;
 layout(constant_id = 4) const bool ao_parallel = false;
 layout(constant_id = 6) const bool ao_mark_background = false;
 layout(constant_id = 11) const int ao_slice_count = 1;
+layout(constant_id = 12) const bool ao_bent_normal = false;
 
 #include "occlusion_resources.glsl"
 #include "ao/shared/normal_pass.h"
@@ -19,6 +20,12 @@ layout(std140, binding = 0) uniform ao_constants_block { ao_occlusion_constants 
 
 vec4 ao_texel(ivec2 pixel)
 {
+    if (ao_bent_normal) {
+        if (ao_mark_background) {
+            return ao_bitmask_bent_packed_pass(ao_constants, pixel);
+        }
+        return ao_bitmask_bent_pass(ao_constants, pixel);
+    }
     if (ao_mark_background) {
         return vec4(ao_bitmask_packed_pass(ao_constants, pixel), 0.0, 0.0);
     }

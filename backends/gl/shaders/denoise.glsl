@@ -6,6 +6,7 @@ layout(constant_id = 2) const int ao_normal_source = 0;
 layout(constant_id = 3) const bool ao_rotate_normals = false;
 layout(constant_id = 4) const bool ao_parallel = false;
 layout(constant_id = 7) const int ao_filter_radius = 2;
+layout(constant_id = 12) const bool ao_bent_normal = false;
 
 layout(binding = 0) uniform sampler2D ao_source;
 layout(binding = 1) uniform sampler2D ao_normals;
@@ -13,6 +14,12 @@ layout(binding = 1) uniform sampler2D ao_normals;
 vec2 ao_load_packed(ivec2 pixel)
 {
     return vec2(texelFetch(ao_source, pixel, 0));
+}
+
+vec2 ao_load_directions(ivec2 pixel)
+{
+    vec4 texel = texelFetch(ao_source, pixel, 0);
+    return vec2(texel.z, texel.w);
 }
 
 real ao_load_depth(ivec2 pixel)

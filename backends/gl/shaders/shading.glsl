@@ -10,6 +10,8 @@ layout(constant_id = 4) const bool ao_use_maps = false;
 layout(constant_id = 5) const bool ao_use_reflections = false;
 layout(constant_id = 6) const bool ao_use_frames = false;
 layout(constant_id = 7) const bool ao_use_blends = false;
+layout(constant_id = 11) const bool ao_use_bent_normal = false;
+layout(constant_id = 12) const bool ao_use_bounces = false;
 layout(constant_id = 8) const bool ao_visibility_in_codes = false; // r8
 
 layout(binding = 0) uniform sampler2D ao_geometry_picture;
@@ -55,6 +57,12 @@ real ao_load_visibility(ivec2 pixel)
         return ao_unorm_value(stored, 255.0);
     }
     return stored;
+}
+
+vec3 ao_load_bent_normal(ivec2 pixel)
+{
+    vec4 texel = texelFetch(ao_visibility_picture, pixel, 0);
+    return vec3(texel.y, texel.z, texel.w);
 }
 
 vec4 ao_load_target(int target, ivec2 pixel)

@@ -32,7 +32,7 @@ struct constant_block {
 };
 static_assert(sizeof(constant_block) <= constants_stride);
 
-constexpr std::array<GLuint, 11> constant_ids{ 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10 };
+constexpr std::array<GLuint, 13> constant_ids{ 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12 };
 
 } // namespace
 
@@ -107,7 +107,7 @@ namespace {
 result<object> link_shading(const functions& gl, const options& chosen, const shade_plan& p, shade_pass_type type)
 {
     const shade_options& o = p.options;
-    const std::array<GLuint, 11> values{ o.stored_position,
+    const std::array<GLuint, 13> values{ o.stored_position,
                                          o.parallel,
                                          static_cast<GLuint>(o.normal_source),
                                          o.visibility,
@@ -117,7 +117,9 @@ result<object> link_shading(const functions& gl, const options& chosen, const sh
                                          o.blends,
                                          p.facts.visibility_format == pixel_format::r8,
                                          chosen.group_width,
-                                         chosen.group_height };
+                                         chosen.group_height,
+                                         o.bent_normal,
+                                         o.multi_bounce };
     const source from = type == shade_pass_type::shade
                             ? source{ shaders::shade_comp, shaders::shade_comp_text, constant_ids, "shading" }
                             : source{ shaders::segment_comp, shaders::segment_comp_text, constant_ids, "blending" };

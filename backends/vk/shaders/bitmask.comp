@@ -20,7 +20,11 @@ void main()
 {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (in_picture(pixel)) {
-#ifdef AO_PACKED
+#if defined(AO_PACKED) && defined(AO_BENT)
+        imageStore(target, pixel, ao_bitmask_bent_packed_pass(constants, pixel));
+#elif defined(AO_BENT)
+        imageStore(target, pixel, ao_bitmask_bent_pass(constants, pixel));
+#elif defined(AO_PACKED)
         imageStore(target, pixel, vec4(ao_bitmask_packed_pass(constants, pixel), 0, 0));
 #else
         imageStore(target, pixel, vec4(ao_bitmask_pass(constants, pixel).visibility));

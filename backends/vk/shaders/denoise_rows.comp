@@ -1,9 +1,14 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#define AO_TARGET rg32f
+#ifdef AO_BENT
+#define AO_PACKED_FORMAT rgba32f
+#else
+#define AO_PACKED_FORMAT rg32f
+#endif
+#define AO_TARGET AO_PACKED_FORMAT
 #define AO_DEPTH_IN_Y
 #ifdef AO_SOFTWARE
-#define AO_STORED_SOURCE rg32f
+#define AO_STORED_SOURCE AO_PACKED_FORMAT
 #endif
 #include "ao/shared/prelude.glsl"
 #include "ao/shared/functions.h"
@@ -17,6 +22,10 @@ void main()
 {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (in_picture(pixel)) {
+#ifdef AO_BENT
+        imageStore(target, pixel, ao_denoise_rows_bent_pass(constants, pixel));
+#else
         imageStore(target, pixel, vec4(ao_denoise_rows_pass(constants, pixel), 0, 0));
+#endif
     }
 }

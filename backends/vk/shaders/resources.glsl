@@ -14,8 +14,14 @@ layout(constant_id = 6) const bool ao_mark_background = false;
 layout(constant_id = 7) const int ao_filter_radius = 0;
 layout(constant_id = 8) const bool depth_in_z = false; // positions
 layout(constant_id = 9) const int ao_slice_count = 1;
+#ifdef AO_BENT
+const bool ao_bent_normal = true;
+#else
+const bool ao_bent_normal = false;
+#endif
 
 // The first of ao::pass::inputs. AO_DEPTH_IN_Y: it holds packed visibility and eye depth.
+// AO_BENT: with bent normals.
 // AO_STORED_SOURCE: it is the program's own picture of that format, read as a storage image.
 #ifdef AO_STORED_SOURCE
 layout(binding = 5, AO_STORED_SOURCE) uniform readonly image2D source;
@@ -36,6 +42,7 @@ real ao_load_stored_depth(ivec2 pixel)
 }
 #ifdef AO_DEPTH_IN_Y
 vec2 ao_load_packed(ivec2 pixel) { return fetch_source(pixel).xy; }
+vec2 ao_load_directions(ivec2 pixel) { return fetch_source(pixel).zw; }
 real ao_load_depth(ivec2 pixel) { return fetch_source(pixel).y; }
 #else
 real ao_load_depth(ivec2 pixel) { return fetch_source(pixel).x; }

@@ -13,6 +13,8 @@ layout(constant_id = 4) const bool ao_use_maps = false;
 layout(constant_id = 5) const bool ao_use_reflections = false;
 layout(constant_id = 6) const bool ao_use_frames = false;
 layout(constant_id = 7) const bool ao_use_blends = false;
+layout(constant_id = 11) const bool ao_use_bent_normal = false;
+layout(constant_id = 12) const bool ao_use_bounces = false;
 layout(constant_id = 8) const bool visibility_in_codes = false; // r8
 
 layout(binding = 0) uniform texture2D geometry_picture;
@@ -40,6 +42,7 @@ real ao_load_visibility(ivec2 pixel)
     }
     return stored;
 }
+vec3 ao_load_bent_normal(ivec2 pixel) { return texelFetch(visibility_picture, pixel, 0).yzw; }
 vec4 ao_load_target(int target, ivec2 pixel) { return imageLoad(targets, ivec3(pixel, target)); }
 uint ao_load_word(uint index) { return table[index]; }
 uint ao_load_texel(uint index) { return heap[index]; }

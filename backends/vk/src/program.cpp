@@ -33,13 +33,25 @@ std::span<const std::uint32_t> shader_of(const device& d, const pass& each, cons
         return pick(
             { filter_columns_comp, filter_columns_comp_r8, filter_columns_comp_software, filter_columns_comp_software_r8 });
     case pass_type::bitmask:
+        if (each.options.bent_normal && each.options.mark_background) {
+            return is_software(d) ? bitmask_comp_software_bent_packed : bitmask_comp_bent_packed;
+        }
+        if (each.options.bent_normal) {
+            return is_software(d) ? bitmask_comp_software_bent : bitmask_comp_bent;
+        }
         if (each.options.mark_background) {
             return is_software(d) ? bitmask_comp_software_packed : bitmask_comp_packed;
         }
         return pick({ bitmask_comp, bitmask_comp_r8, bitmask_comp_software, bitmask_comp_software_r8 });
     case pass_type::denoise_rows:
+        if (each.options.bent_normal) {
+            return is_software(d) ? denoise_rows_comp_software_bent : denoise_rows_comp_bent;
+        }
         return is_software(d) ? denoise_rows_comp_software : denoise_rows_comp;
     case pass_type::denoise_columns:
+        if (each.options.bent_normal) {
+            return is_software(d) ? denoise_columns_comp_software_bent : denoise_columns_comp_bent;
+        }
         return pick(
             { denoise_columns_comp, denoise_columns_comp_r8, denoise_columns_comp_software, denoise_columns_comp_software_r8 });
     }

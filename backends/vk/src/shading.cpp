@@ -108,7 +108,7 @@ std::optional<error> make_layouts(const device& d, shade_program_state& made)
 std::optional<error> make_pipelines(const device& d, const shade_plan& p, shade_program_state& made)
 {
     const shade_options& o = p.options;
-    const std::array<specialisation_value, 11> values{ { { 0, o.stored_position },
+    const std::array<specialisation_value, 13> values{ { { 0, o.stored_position },
                                                          { 1, o.parallel },
                                                          { 2, static_cast<std::uint32_t>(o.normal_source) },
                                                          { 3, o.visibility },
@@ -118,7 +118,9 @@ std::optional<error> make_pipelines(const device& d, const shade_plan& p, shade_
                                                          { 7, o.blends },
                                                          { 8, p.facts.visibility_format == pixel_format::r8 },
                                                          { 9, d.host.group.x },
-                                                         { 10, d.host.group.y } } };
+                                                         { 10, d.host.group.y },
+                                                         { 11, o.bent_normal },
+                                                         { 12, o.multi_bounce } } };
     for (const shade_pass& each : p.passes) {
         const bool whole = each.type == shade_pass_type::shade;
         owned<VkPipeline>& pipeline = whole ? made.shade : made.segment;

@@ -78,7 +78,7 @@ enum factor : std::size_t {
     of_background,
     factor_count,
 };
-inline constexpr std::array<std::uint32_t, factor_count> choices{ 6, 5, 4, 4, 4, 3, 3, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2 };
+inline constexpr std::array<std::uint32_t, factor_count> choices{ 6, 5, 4, 4, 5, 3, 3, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2 };
 using choice = std::array<std::uint32_t, factor_count>;
 
 namespace detail {
@@ -187,12 +187,13 @@ inline camera_projection make_case_projection(const choice& c)
 
 inline pass_case make_case(const choice& c)
 {
-    constexpr std::array<std::string_view, 4> methods{ "box", "hemisphere", "halton", "bitmask" };
+    constexpr std::array<std::string_view, 5> methods{ "box", "hemisphere", "halton", "bitmask", "bent bitmask" };
     constexpr std::array<std::string_view, 3> kinds{ "scene", "noise", "poisoned" };
     constexpr std::array<int, 3> taps{ 8, 32, 13 };
     constexpr std::array<int, 4> filters{ 1, 3, 5, 31 };
     pass_case made;
-    made.settings.method = static_cast<method>(c[of_method]);
+    made.settings.bent_normal = c[of_method] == 4;
+    made.settings.method = made.settings.bent_normal ? method::bitmask : static_cast<method>(c[of_method]);
     made.settings.taps = taps[c[of_taps]];
     if (made.settings.method == method::bitmask && made.settings.taps == 13) {
         made.settings.taps = 12;
@@ -212,7 +213,9 @@ inline pass_case make_case(const choice& c)
     made.facts.normal_format = normal_choices[c[of_normals]].format;
     made.facts.world_normals = c[of_world_normals] != 0;
     made.facts.parallel = c[of_parallel] != 0;
-    made.facts.output_format = c[of_output] != 0 ? pixel_format::r8 : pixel_format::r32f;
+    made.facts.output_format = made.settings.bent_normal ? pixel_format::rgba16f
+                               : c[of_output] != 0       ? pixel_format::r8
+                                                         : pixel_format::r32f;
     made.camera.projection = make_case_projection(c);
     if (c[of_background] != 0) {
         made.camera.background = 8.5F;
@@ -248,7 +251,7 @@ inline pass_case make_case(const choice& c)
                 option(of_reversed, "reversed") + option(of_y_down, "y down") + option(of_rows, "rows from +1") +
                 option(of_infinite, "infinite far") + option(of_off_centre, "off-centre") +
                 option(of_world_normals, "world normals") + option(of_thickness, "thickness") +
-                option(of_background, "background 8.5") + option(of_output, "to r8");
+                option(of_background, "background 8.5") + (made.facts.output_format == pixel_format::r8 ? ", to r8" : "");
     return made;
 }
 

@@ -169,6 +169,11 @@ struct readers {
     Real visibility(ivec2 pixel) const { return first(pixel).x; }
     glm::vec<2, Real> row_sum(ivec2 pixel) const { return glm::vec<2, Real>(first(pixel)); }
     glm::vec<2, Real> packed(ivec2 pixel) const { return glm::vec<2, Real>(first(pixel)); }
+    glm::vec<2, Real> directions(ivec2 pixel) const
+    {
+        const glm::vec<4, Real> all = first(pixel);
+        return { all.z, all.w };
+    }
 };
 
 } // namespace detail
@@ -268,9 +273,16 @@ private:
         case pass_type::denoise_rows:
         case pass_type::denoise_columns: {
             using body = denoise_pass<Real, resources>;
-            body run{ read, o.filter_radius, o.normal_source, o.rotate_normals, o.parallel };
+            body run{ read, o.filter_radius, o.normal_source, o.rotate_normals, o.parallel, o.bent_normal };
             const auto c = convert_constants<typename body::ao_denoise_constants, Real, denoise_constants, float>(
                 constants_of<denoise_constants>(each));
+            if (o.bent_normal) {
+                const bool rows = each.type == pass_type::denoise_rows;
+                over_pixels(each, [&](ivec2 pixel, auto& out) {
+                    out = rows ? run.ao_denoise_rows_bent_pass(c, pixel) : run.ao_denoise_columns_bent_pass(c, pixel);
+                });
+                break;
+            }
             if (each.type == pass_type::denoise_columns) {
                 over_pixels(each, [&](ivec2 pixel, auto& out) { out.x = run.ao_denoise_columns_pass(c, pixel); });
                 break;
@@ -307,7 +319,7 @@ private:
     {
         values<Real>& visibility = at(image_id::visibility) = values<Real>(plan_.facts.width, plan_.facts.height);
         for (auto& texel : visibility.texels) {
-            texel.x = Real(0.0F, 1.0F);
+            texel = { Real(0.0F, 1.0F), Real(-1.0F, 1.0F), Real(-1.0F, 1.0F), Real(-1.0F, 1.0F) };
         }
         return visibility;
     }
@@ -316,10 +328,15 @@ private:
     {
         const pass_options& o = each.options;
         using body = bitmask_pass<Real, resources>;
-        body run{ read, o.tap_count, o.slice_count, o.normal_source, o.rotate_normals, o.parallel, o.mark_background };
+        body run{ read,       o.tap_count,       o.slice_count, o.normal_source, o.rotate_normals,
+                  o.parallel, o.mark_background, o.bent_normal };
         const auto c = convert_constants<typename body::ao_occlusion_constants, Real, occlusion_constants, float>(
             constants_of<occlusion_constants>(each));
         over_pixels(each, [&](ivec2 pixel, auto& out) {
+            if (o.bent_normal) {
+                out = o.mark_background ? run.ao_bitmask_bent_packed_pass(c, pixel) : run.ao_bitmask_bent_pass(c, pixel);
+                return;
+            }
             if (!o.mark_background) {
                 out.x = run.ao_bitmask_pass(c, pixel).visibility;
                 return;
@@ -335,15 +352,20 @@ private:
     std::vector<glm::vec4> taps_;
 };
 
-// The visibility of the reference, stored in the plan's output format; r8 rounds to the nearest code.
+// The visibility of the reference, stored in the plan's output format; r8 rounds to the nearest code. rgba16f: with bent normals.
 inline picture reference_visibility(const plan& p, const picture& depth, const picture& normal)
 {
     executor<float> run(p, depth, normal);
     const values<float>& visibility = run.run();
     picture stored(p.facts.output_format, p.facts.width, p.facts.height);
     for (std::size_t i = 0; i < stored.pixels(); ++i) {
-        const float v = visibility.texels[i].x;
-        if (stored.format == pixel_format::r8) {
+        const glm::vec4 texel = visibility.texels[i];
+        const float v = texel.x;
+        if (stored.format == pixel_format::rgba16f) {
+            stored.set_texel(
+                i, std::array{ float_to_half(v), float_to_half(texel.y), float_to_half(texel.z), float_to_half(texel.w) });
+        }
+        else if (stored.format == pixel_format::r8) {
             stored.set_texel(i, static_cast<std::uint8_t>(std::nearbyint(v * 255.0F)));
         }
         else {

@@ -52,7 +52,9 @@ public:
                         plan_->options.maps,
                         plan_->options.reflections,
                         plan_->options.frames,
-                        plan_->options.blends };
+                        plan_->options.blends,
+                        plan_->options.bent_normal,
+                        plan_->options.multi_bounce };
         for (const shade_pass& pass : plan_->passes) {
             run_pass(body, pass);
         }
@@ -72,6 +74,11 @@ private:
         vec4 frame(glm::ivec2 p) const { return of->frame_.at(p.x, p.y); }
         glm::uvec2 ids(glm::ivec2 p) const { return of->ids_->template texel<glm::uvec2>(of->index(p)); }
         Real visibility(glm::ivec2 p) const { return of->visibility_.at(p.x, p.y).x; }
+        glm::vec<3, Real> bent_normal(glm::ivec2 p) const
+        {
+            const vec4& t = of->visibility_.at(p.x, p.y);
+            return { t.y, t.z, t.w };
+        }
         vec4 target(int i, glm::ivec2 p) const { return of->targets_[static_cast<std::size_t>(i)].at(p.x, p.y); }
         std::uint32_t word(std::uint32_t i) const { return of->plan_->words[i]; }
         std::uint32_t texel(std::uint32_t i) const { return of->heap_->words[i]; }

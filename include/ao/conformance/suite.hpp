@@ -228,14 +228,26 @@ case_result run_pass_case(S& s, const pass_case& c)
     const values<interval>& allowed = bounds.run();
     std::size_t open = 0;
     for (std::size_t i = 0; i < got->pixels(); ++i) {
-        const float value = decode_texel<float>(*got, i).x;
+        const glm::vec4 texel = decode_texel<float>(*got, i);
+        const float value = texel.x;
         const auto place = [&] {
             const auto width = static_cast<std::size_t>(c.facts.width);
             return "pixel (" + std::to_string(i % width) + ", " + std::to_string(i / width) + ")";
         };
         const interval limits = allowed.texels[i].x;
         open += limits.hi - limits.lo > 1e-5F ? 1U : 0U;
-        judge.check(value, decode_texel<float>(reference, i).x, stored_bounds(limits, c.facts.output_format), place);
+        const glm::vec4 expected = decode_texel<float>(reference, i);
+        judge.check(value, expected.x, stored_bounds(limits, c.facts.output_format), place);
+        if (c.settings.bent_normal) {
+            for (int k = 1; k < 4; ++k) {
+                judge.check(texel[k], expected[k], allowed.texels[i][k], [&] { return place() + ", bent normal"; });
+            }
+            const float square = texel.y * texel.y + texel.z * texel.z + texel.w * texel.w;
+            // Rounded to multiples of 1/2048, each component by half of that.
+            if (!(std::abs(square - 1) < 8.6e-4F)) {
+                judge.fault(place() + ": a bent normal whose square is " + detail::number(square));
+            }
+        }
         if (!(value >= 0 && value <= 1)) {
             judge.fault(place() + ": visibility " + detail::number(value) + " is not in [0, 1]");
         }

@@ -2,13 +2,15 @@
 // 2016) whose occluders are columns of finite thickness (Therrien et al. 2023), their sectors equal in cosine-weighted measure.
 // Callbacks: vec2 ao_load_rotation(ivec2), vec4 ao_tap(int): the tables of ao/slices.hpp; and those of normal_pass.h and
 //            slice_taps.h.
-// Options:   int ao_tap_count: of all slices; int ao_slice_count; bool ao_mark_background; and those of normal_pass.h and
-//            slice_taps.h.
+// Options:   int ao_tap_count: of all slices; int ao_slice_count; bool ao_mark_background; bool ao_bent_normal; and those of
+//            normal_pass.h and slice_taps.h.
 
 struct ao_bitmask_result {
-    real visibility; // [0, 1]; on background 1, or -1 where ao_mark_background asks for a mark
-    real weight;     // what it counts for among neighbours, [0, pi]
-    real depth;      // eye depth, 0 for background
+    real visibility;      // [0, 1]; on background 1, or -1 where ao_mark_background asks for a mark
+    real weight;          // what it counts for among neighbours, [0, pi]
+    real depth;           // eye depth, 0 for background
+    ao_openness openness; // where ao_bent_normal asks for it, else 0
+    vec3 normal;
 };
 
 AO_PASS ao_bitmask_result ao_bitmask_pass(ao_occlusion_constants c, ivec2 pixel)
@@ -29,6 +31,8 @@ AO_PASS ao_bitmask_result ao_bitmask_pass(ao_occlusion_constants c, ivec2 pixel)
 
     real open = real(0);
     real total = real(0);
+    vec3 none = vec3(real(0), real(0), real(0));
+    ao_openness openness = { none, none };
     for (int s = 0; s < ao_slice_count; ++s) {
         vec4 slice_turn = ao_tap(steps * s);
         ao_slice_walk walk = ao_make_slice_walk(space, c.projection, turn.x, vec2(slice_turn.x, slice_turn.y));
@@ -43,15 +47,33 @@ AO_PASS ao_bitmask_result ao_bitmask_pass(ao_occlusion_constants c, ivec2 pixel)
         AO_PRECISE real next_total = total + walk.slice.weight;
         open = next_open;
         total = next_total;
+        if (ao_bent_normal) {
+            vec3 across = ao_slice_across(space, walk);
+            openness = ao_add_openness(openness, ao_openness_of(walk.slice, space.view, across, blocked), walk.slice.weight);
+        }
     }
     mask weighed = total > real(0);
-    AO_PRECISE real mean = open / mix(real(1), total, weighed);
+    real divisor = mix(real(1), total, weighed);
+    AO_PRECISE real mean = open / divisor;
     real visibility = mix(real(1), min(mean, real(1)), weighed);
     AO_PRECISE real weight = total / real(ao_slice_count);
+    if (ao_bent_normal) {
+        AO_PRECISE real inverse = real(1) / divisor;
+        ao_openness nothing = { none, none };
+        openness = ao_add_openness(nothing, openness, inverse);
+    }
     real outside = ao_mark_background ? real(-1) : real(1);
     ao_bitmask_result result = { mix(outside, visibility, foreground), mix(real(0), weight, foreground),
-                                 mix(real(0), d, foreground) };
+                                 mix(real(0), d, foreground), openness, normal };
     return result;
+}
+
+// Visibility, 1 on background, and the bent normal, +Z on background: bent_normal.h.
+AO_PASS vec4 ao_bitmask_bent_pass(ao_occlusion_constants c, ivec2 pixel)
+{
+    ao_bitmask_result r = ao_bitmask_pass(c, pixel);
+    vec3 bent = ao_bent_normal_of(r.openness, r.visibility, r.normal);
+    return ao_bent_texel(r.visibility, ao_select(vec3(real(0), real(0), real(1)), bent, r.depth > real(0)));
 }
 
 // The same as the denoiser takes it: packed_visibility.h, and eye depth.
@@ -61,4 +83,15 @@ AO_PASS vec2 ao_bitmask_packed_pass(ao_occlusion_constants c, ivec2 pixel)
     mask foreground = r.depth > real(0);
     real both = ao_pack_visibility(mix(real(1), r.visibility, foreground), r.weight);
     return vec2(mix(real(-1), both, foreground), r.depth);
+}
+
+// And packed mean directions: of what is open, and of the slices as a whole.
+AO_PASS vec4 ao_bitmask_bent_packed_pass(ao_occlusion_constants c, ivec2 pixel)
+{
+    ao_bitmask_result r = ao_bitmask_pass(c, pixel);
+    mask foreground = r.depth > real(0);
+    real both = ao_pack_visibility(mix(real(1), r.visibility, foreground), r.weight);
+    vec4 codes = vec4(mix(real(-1), both, foreground), r.depth, mix(real(0), ao_pack_direction(r.openness.open), foreground),
+                      mix(real(0), ao_pack_direction(r.openness.whole), foreground));
+    return codes;
 }

@@ -1,8 +1,9 @@
 // Denoiser of the method `bitmask`: mean of a window's visibilities, each weighted by what its slices count for, by how near it
 // lies to the pixel's tangent plane and, where normals are stored, by how alike they are. A pass along the rows and one along
 // the columns.
-// Callbacks: vec2 ao_load_packed(ivec2): packed visibility and eye depth; and those of normal_pass.h.
-// Options:   int ao_filter_radius; bool ao_parallel; and those of normal_pass.h.
+// Callbacks: vec2 ao_load_packed(ivec2): packed visibility and eye depth; where ao_bent_normal asks for them, vec2
+//            ao_load_directions(ivec2): packed mean directions (bent_normal.h); and those of normal_pass.h.
+// Options:   int ao_filter_radius; bool ao_parallel; bool ao_bent_normal; and those of normal_pass.h.
 
 struct ao_denoise_constants {
     ao_projection projection;
@@ -15,9 +16,11 @@ struct ao_denoise_constants {
 
 // What a window holds of the pixel's surface.
 struct ao_denoise_sum {
-    real hidden; // occlusion, in 4095ths, times weight
-    real weight; // in 1024ths
-    real depth;  // of the pixel, eye depth, 0 for background
+    real hidden;          // occlusion, in 4095ths, times weight
+    real weight;          // in 1024ths
+    real depth;           // of the pixel, eye depth, 0 for background
+    ao_openness openness; // in 127ths, times weight; where ao_bent_normal asks for it, else 0
+    vec3 normal;          // of the pixel
 };
 
 // The cosine between a unit direction and a texel's normal, as they are stored, to the fourth power; 0 from a right angle on and
@@ -53,6 +56,8 @@ AO_PASS ao_denoise_sum ao_denoise_window(ao_denoise_constants c, ivec2 pixel, in
 
     real hidden = real(0);
     real weight = real(0);
+    vec3 none = vec3(real(0), real(0), real(0));
+    ao_openness openness = { none, none };
     for (int i = -ao_filter_radius; i <= ao_filter_radius; ++i) {
         integer column = pixel.x + integer(i * step_x);
         integer row = pixel.y + integer(i * step_y);
@@ -75,8 +80,13 @@ AO_PASS ao_denoise_sum ao_denoise_window(ao_denoise_constants c, ivec2 pixel, in
         AO_PRECISE real next_weight = weight + share;
         hidden = next_hidden;
         weight = next_weight;
+        if (ao_bent_normal) {
+            vec2 directions = ao_load_directions(texel);
+            ao_openness seen_there = ao_unpack_openness(mix(real(0), directions.x, used), mix(real(0), directions.y, used));
+            openness = ao_add_openness(openness, seen_there, share);
+        }
     }
-    ao_denoise_sum sum = { hidden, mix(real(0), weight, foreground), mix(real(0), d, foreground) };
+    ao_denoise_sum sum = { hidden, mix(real(0), weight, foreground), mix(real(0), d, foreground), openness, normal };
     return sum;
 }
 
@@ -94,6 +104,38 @@ AO_PASS vec2 ao_denoise_rows_pass(ao_denoise_constants c, ivec2 pixel)
     AO_PRECISE real weight = sum.weight / (real(ao_packed_weight) * real(2 * ao_filter_radius + 1));
     real both = ao_pack_visibility(ao_denoised(sum), weight);
     return vec2(mix(real(-1), both, sum.weight > real(0)), sum.depth);
+}
+
+// Mean directions of a window.
+AO_FN ao_openness ao_denoised_openness(ao_denoise_sum sum)
+{
+    mask foreground = sum.weight > real(0);
+    AO_PRECISE real inverse = real(1) / (mix(real(1), sum.weight, foreground) * real(ao_packed_direction));
+    vec3 none = vec3(real(0), real(0), real(0));
+    ao_openness nothing = { none, none };
+    return ao_add_openness(nothing, sum.openness, inverse);
+}
+
+// As above, and packed mean directions.
+AO_PASS vec4 ao_denoise_rows_bent_pass(ao_denoise_constants c, ivec2 pixel)
+{
+    ao_denoise_sum sum = ao_denoise_window(c, pixel, 1, 0);
+    mask foreground = sum.weight > real(0);
+    AO_PRECISE real weight = sum.weight / (real(ao_packed_weight) * real(2 * ao_filter_radius + 1));
+    real both = ao_pack_visibility(ao_denoised(sum), weight);
+    ao_openness mean = ao_denoised_openness(sum);
+    vec4 codes = vec4(mix(real(-1), both, foreground), sum.depth, mix(real(0), ao_pack_direction(mean.open), foreground),
+                      mix(real(0), ao_pack_direction(mean.whole), foreground));
+    return codes;
+}
+
+// Mean visibility and bent normal, as ao_bitmask_bent_pass returns them.
+AO_PASS vec4 ao_denoise_columns_bent_pass(ao_denoise_constants c, ivec2 pixel)
+{
+    ao_denoise_sum sum = ao_denoise_window(c, pixel, 0, 1);
+    real visibility = ao_denoised(sum);
+    vec3 bent = ao_bent_normal_of(ao_denoised_openness(sum), visibility, sum.normal);
+    return ao_bent_texel(visibility, ao_select(vec3(real(0), real(0), real(1)), bent, sum.weight > real(0)));
 }
 
 AO_PASS real ao_denoise_columns_pass(ao_denoise_constants c, ivec2 pixel)

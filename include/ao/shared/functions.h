@@ -11,6 +11,7 @@
 #include "ao/shared/elementary.h"
 #include "ao/shared/sectors.h"
 #include "ao/shared/packed_visibility.h"
+#include "ao/shared/bent_normal.h"
 #include "ao/shared/color.h"
 #include "ao/shared/blend.h"
 #include "ao/shared/shading.h"

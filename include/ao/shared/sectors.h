@@ -23,6 +23,8 @@ struct ao_slice {
     real square;
     real tangent; // least height over the pixel, along V, of what stands over the tangent plane, per distance from V
     real weight;  // what it counts for: its share of the hemisphere, 0 to pi, on average over azimuths 1
+    real sine;    // of gamma
+    real cosine;
 };
 
 // `along`, `facing`: the normal's components in the slice, along the slice and along V; a normal that leans away from the eye
@@ -49,7 +51,7 @@ AO_FN ao_slice ao_make_slice(real along, real facing)
     AO_PRECISE real start = lens * real(1.5707963267948966) + square;
     AO_PRECISE real tangent = -sine * (some * both);
     AO_PRECISE real weight = max(length * whole, real(0));
-    ao_slice slice = { start, lens, square, tangent, mix(real(0), weight, somewhere) };
+    ao_slice slice = { start, lens, square, tangent, mix(real(0), weight, somewhere), sine, cosine };
     return slice;
 }
 
@@ -69,11 +71,16 @@ AO_FN uint ao_sectors_from(integer border)
     return mix(from, uint(0u), none);
 }
 
-// Number of sectors of a set.
-AO_FN real ao_sectors_in(uint set)
+// Numbers of sectors of a set in each quarter of the slice, from V on: bytes of a word, the lowest first.
+AO_FN uint ao_sectors_by_eight(uint set)
 {
     uint pairs = set - ((set >> 1) & uint(0x55555555u));
     uint fours = (pairs & uint(0x33333333u)) + ((pairs >> 2) & uint(0x33333333u));
-    uint bytes = (fours + (fours >> 4)) & uint(0x0f0f0f0fu);
-    return real(integer((bytes * uint(0x01010101u)) >> 24));
+    return (fours + (fours >> 4)) & uint(0x0f0f0f0fu);
+}
+
+// Number of sectors of a set.
+AO_FN real ao_sectors_in(uint set)
+{
+    return real(integer((ao_sectors_by_eight(set) * uint(0x01010101u)) >> 24));
 }

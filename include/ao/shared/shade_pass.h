@@ -2,12 +2,14 @@
 // of materials, the ambient term scaled by the visibility at the pixel. Include ao/shared/texture.h and shade_tables.h first.
 // Callbacks: vec4 ao_load_geometry(ivec2): view-space position, or the depth buffer in x; vec4 ao_load_normal(ivec2);
 //            vec4 ao_load_surface(ivec2); vec4 ao_load_frame(ivec2); uvec2 ao_load_ids(ivec2): the targets of gbuffer_facts;
-//            real ao_load_visibility(ivec2); vec4 ao_load_target(int, ivec2): what an earlier ao_segment_pass returned;
-//            uint ao_load_word(uint): the table of shade_tables.h; uint ao_load_texel(uint): the heap of texture.h;
-//            void ao_count_clamped(uint): weights at this pixel that were outside [0, 1] or NaN. Called only where there are any.
+//            real ao_load_visibility(ivec2); vec3 ao_load_bent_normal(ivec2), view space; vec4 ao_load_target(int, ivec2): what
+//            an earlier ao_segment_pass returned; uint ao_load_word(uint): the table of shade_tables.h; uint ao_load_texel(uint):
+//            the heap of texture.h; void ao_count_clamped(uint): weights at this pixel that were outside [0, 1] or NaN. Called
+//            only where there are any.
 // Options:   bool ao_stored_position (else depth), bool ao_parallel, int ao_normal_source, bool ao_use_visibility, bool
 // ao_use_maps,
-//            bool ao_use_reflections, bool ao_use_frames, bool ao_use_blends. A callback whose option is off is not called.
+//            bool ao_use_reflections, bool ao_use_frames, bool ao_use_blends, bool ao_use_bent_normal, bool ao_use_bounces. A
+//            callback whose option is off is not called.
 // Control flow depends on the material: Real types whose mask is bool only.
 
 struct ao_shade_constants {
@@ -68,13 +70,18 @@ AO_PASS ao_surface ao_load_pixel(ao_shade_constants c, ivec2 pixel)
         mask usable = seen >= real(0);
         visibility = min(mix(real(1), seen, usable), real(1));
     }
+    vec3 opening = normal;
+    if (ao_use_bent_normal) {
+        opening = ao_normalize_or(ao_load_bent_normal(pixel), normal);
+    }
     ao_surface s = { ao_to_world(c, position),
                      ao_to_world(c, normal),
                      ao_to_world(c, to_eye),
                      vec2(surface.x, surface.y),
                      surface.z,
                      surface.w,
-                     visibility };
+                     visibility,
+                     ao_to_world(c, opening) };
     return s;
 }
 
@@ -129,7 +136,16 @@ AO_PASS vec3 ao_shade_leaf(ao_shade_constants c, uint index, uint normal_kind, a
         AO_PRECISE vec2 uv = vec2(s.uv.x * ao_load_real(material + uint(16)), s.uv.y * ao_load_real(material + uint(17)));
         AO_PRECISE real footprint = s.footprint * ao_load_real(material + uint(18));
         if (ao_use_frames && normal_kind != uint(ao_normal_of_geometry)) {
-            s.normal = ao_leaf_normal(c, material, normal_kind, s, uv, footprint, pixel);
+            vec3 own = ao_leaf_normal(c, material, normal_kind, s, uv, footprint, pixel);
+            vec3 opening = own;
+            if (ao_use_bent_normal) {
+                // Bent from the leaf's normal as far as from the geometry's.
+                AO_PRECISE vec3 bent = vec3(own.x + (s.opening.x - s.normal.x), own.y + (s.opening.y - s.normal.y),
+                                            own.z + (s.opening.z - s.normal.z));
+                opening = ao_normalize_or(bent, own);
+            }
+            s.normal = own;
+            s.opening = opening;
         }
         uint diffuse_map = ao_load_word(material + uint(19));
         if (diffuse_map != uint(0)) {
@@ -145,7 +161,14 @@ AO_PASS vec3 ao_shade_leaf(ao_shade_constants c, uint index, uint normal_kind, a
     ao_reflectance m = { ambient, diffuse, specular, ao_load_real(material + uint(3)),
                          ao_load_word(material + uint(7)) != uint(0) };
 
-    vec3 color = ao_sum(ao_ambient_term(m, s, ao_load_ambient()), ao_load_vector(material + uint(12)));
+    vec3 surrounding = vec3(real(0), real(0), real(0));
+    if (ao_use_bounces) {
+        surrounding = ao_bounced_ambient_term(m, s, ao_load_ambient());
+    }
+    else {
+        surrounding = ao_ambient_term(m, s, ao_load_ambient());
+    }
+    vec3 color = ao_sum(surrounding, ao_load_vector(material + uint(12)));
     uint light = ao_load_word(uint(ao_header_lights));
     uint count = ao_load_word(uint(ao_header_light_count));
     for (uint i = uint(0); i < count; ++i) {

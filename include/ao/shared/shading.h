@@ -9,6 +9,7 @@ struct ao_surface {
     real footprint;  // squared length of the longer screen derivative of uv
     real side;       // +1 seen from the front, -1 from behind
     real visibility; // 1 - occlusion: 1 = open. Scales the ambient term and nothing else
+    vec3 opening;    // unit: where ambient light comes from: the normal, or the mean unoccluded direction
 };
 
 // Reflectances with their maps multiplied in.
@@ -132,7 +133,28 @@ AO_FN vec3 ao_reflected(ao_reflectance m, ao_surface s, ao_incident light)
 
 AO_FN vec3 ao_ambient_term(ao_reflectance m, ao_surface s, ao_ambient_light light)
 {
-    return ao_scaled(ao_product(m.ambient, ao_ambient(light, s.normal)), s.visibility);
+    return ao_scaled(ao_product(m.ambient, ao_ambient(light, s.opening)), s.visibility);
+}
+
+// Visibility with the light that surfaces of this albedo send on to each other: the cubic of Jimenez, Wu, Pesce and Jarabo,
+// "Practical Realtime Strategies for Accurate Indirect Occlusion" (2016), section 5. `visibility` in [0, 1]; `albedo` is taken in
+// [0, 1]. Never below `visibility` nor above 1; at albedo 0 visibility itself, within 1e-5.
+AO_FN real ao_bounced_visibility(real visibility, real albedo)
+{
+    real some = min(max(albedo, real(0)), real(1));
+    AO_PRECISE real a = real(2.0404) * some - real(0.3324);
+    AO_PRECISE real b = real(0.6417) - real(4.7951) * some;
+    AO_PRECISE real c = real(2.7552) * some + real(0.6903);
+    AO_PRECISE real cubic = ((a * visibility + b) * visibility + c) * visibility;
+    return min(max(cubic, visibility), real(1));
+}
+
+// The ambient term with visibility tinted by the diffuse reflectance, which stands for that of the surfaces around.
+AO_FN vec3 ao_bounced_ambient_term(ao_reflectance m, ao_surface s, ao_ambient_light light)
+{
+    vec3 visible = vec3(ao_bounced_visibility(s.visibility, m.diffuse.x), ao_bounced_visibility(s.visibility, m.diffuse.y),
+                        ao_bounced_visibility(s.visibility, m.diffuse.z));
+    return ao_product(ao_product(m.ambient, ao_ambient(light, s.opening)), visible);
 }
 
 // Where an equirectangular map shows a direction (of length about 1): the middle of the picture is -Z, right of it +X, its

@@ -79,6 +79,16 @@ AO_PASS ao_slice_walk ao_make_slice_walk(ao_slice_space t, ao_projection p, real
     return walk;
 }
 
+// Unit, in the slice and at a right angle to V.
+AO_FN vec3 ao_slice_across(ao_slice_space t, ao_slice_walk w)
+{
+    AO_PRECISE real lean = w.direction.x * t.view.x + w.direction.y * t.view.y;
+    AO_PRECISE real inverse = ao_inverse_root(max(real(1) - lean * lean, real(1e-12)));
+    AO_PRECISE vec3 across = vec3((w.direction.x - t.view.x * lean) * inverse, (w.direction.y - t.view.y * lean) * inverse,
+                                  -(t.view.z * lean * inverse));
+    return across;
+}
+
 // At which share of the steps a tap lies. `tap`: of ao/slices.hpp; `shift`: the pixel's own, [0, 1); `step_share`: of one step.
 AO_FN real ao_step_share(vec4 tap, real shift, real step_share)
 {
