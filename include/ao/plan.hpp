@@ -72,6 +72,7 @@ struct pass_options {
     int filter_radius = 0;
     int slice_count = 1;
     bool bent_normal = false;
+    bool coarse = false;
 
     friend constexpr bool operator==(const pass_options&, const pass_options&) = default;
 };
@@ -100,7 +101,7 @@ struct pass {
     pass_options options;
     // linearize: depth. occlusion, bitmask: eye depth, normal (or none), rotation. filter_rows: visibility. filter_columns: row
     // sums. denoise_rows, denoise_columns: packed visibility and eye depth (packed_visibility.h) and, of bent normals, packed
-    // mean directions (bent_normal.h); normal (or none).
+    // mean directions (bent_normal.h); normal (or none); where coarse, eye depth.
     std::array<image_id, 3> inputs{ image_id::none, image_id::none, image_id::none };
     image_id output = image_id::none;
     // The shared constants struct of the pass, as bytes.
@@ -108,10 +109,12 @@ struct pass {
     std::size_t constants_size = 0;
 };
 
-// A picture of the program's own, of the size of the output.
+// A picture of the program's own.
 struct transient_image {
     image_id id{};
     pixel_format format{};
+    int width = 0; // texels
+    int height = 0;
 };
 
 struct plan {
@@ -280,9 +283,10 @@ constexpr std::optional<error> update(plan& p, const camera& view)
             c.normal_to_view = std::bit_cast<decltype(c.normal_to_view)>(detail::rows_of(view.normal_to_view));
             c.width = static_cast<float>(f.width);
             c.height = static_cast<float>(f.height);
-            // A neighbour counts up to a twenty-fifth of the radius or a five-hundredth of the depth from the tangent plane.
+            // A neighbour counts up to a twenty-fifth of the radius or, by ao_plane_depth, a five-hundredth of the depth from the
+            // tangent plane.
             c.plane_constant = 1.6e-3F * p.settings.radius * p.settings.radius;
-            c.plane_depth = 4e-6F;
+            c.background = background;
             detail::set_constants(each, c);
             break;
         }
@@ -318,7 +322,7 @@ constexpr result<plan> make_plan(const settings& s, const facts& f, const camera
         linearize.inputs = { image_id::depth, image_id::none, image_id::none };
         linearize.output = depth = image_id::linear_depth;
         p.passes.push_back(linearize);
-        p.transients.push_back({ image_id::linear_depth, pixel_format::r32f });
+        p.transients.push_back({ image_id::linear_depth, pixel_format::r32f, f.width, f.height });
     }
 
     const bool filtered = s.filter > 1;
@@ -333,14 +337,18 @@ constexpr result<plan> make_plan(const settings& s, const facts& f, const camera
     occlusion.options.limit_thickness = !sliced && s.thickness <= std::numeric_limits<float>::max();
     occlusion.options.mark_background = filtered;
     occlusion.options.bent_normal = s.bent_normal;
+    occlusion.options.coarse = s.resolution == resolution::half;
     occlusion.inputs = { depth, f.normals == normal_source::from_depth ? image_id::none : image_id::normal, image_id::rotation };
     occlusion.output = filtered ? image_id::raw_visibility : image_id::visibility;
     p.passes.push_back(occlusion);
 
     if (filtered) {
+        const bool coarse = occlusion.options.coarse;
+        const int rows_written = coarse ? (f.height + 1) / 2 : f.height;
         const pixel_format packed = s.bent_normal ? pixel_format::rgba32f : pixel_format::rg32f;
-        p.transients.push_back({ image_id::raw_visibility, sliced ? packed : pixel_format::r32f });
-        p.transients.push_back({ image_id::row_sums, packed });
+        p.transients.push_back({ image_id::raw_visibility, sliced ? packed : pixel_format::r32f,
+                                 coarse ? (f.width + 1) / 2 : f.width, rows_written });
+        p.transients.push_back({ image_id::row_sums, packed, f.width, rows_written });
         pass rows;
         rows.type = sliced ? pass_type::denoise_rows : pass_type::filter_rows;
         rows.options.filter_radius = s.filter / 2;
@@ -349,8 +357,10 @@ constexpr result<plan> make_plan(const settings& s, const facts& f, const camera
             rows.options.rotate_normals = occlusion.options.rotate_normals;
             rows.options.parallel = f.parallel;
             rows.options.bent_normal = s.bent_normal;
+            rows.options.coarse = coarse;
         }
-        rows.inputs = { image_id::raw_visibility, sliced ? occlusion.inputs[1] : image_id::none, image_id::none };
+        rows.inputs = { image_id::raw_visibility, sliced ? occlusion.inputs[1] : image_id::none,
+                        coarse ? depth : image_id::none };
         rows.output = image_id::row_sums;
         p.passes.push_back(rows);
         pass columns = rows;
@@ -363,6 +373,22 @@ constexpr result<plan> make_plan(const settings& s, const facts& f, const camera
         return *wrong;
     }
     return p;
+}
+
+struct extent {
+    int width = 0; // texels
+    int height = 0;
+};
+
+// Of a picture that a pass of the plan writes.
+constexpr extent extent_of(const plan& p, image_id id)
+{
+    for (const transient_image& each : p.transients) {
+        if (each.id == id) {
+            return { each.width, each.height };
+        }
+    }
+    return { p.facts.width, p.facts.height };
 }
 
 // True where both plans run the same passes over the same pictures with the same tables, so that a program prepared for one

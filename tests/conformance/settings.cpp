@@ -65,6 +65,11 @@ const std::vector<change> changes{
           in.settings.bent_normal = true;
           in.facts.output_format = pixel_format::rgba16f;
       } },
+    { "half resolution",
+      [](frame_input& in) {
+          in.settings.method = method::bitmask;
+          in.settings.resolution = resolution::half;
+      } },
     { "taps", [](frame_input& in) { in.settings.taps = 33; } },
     { "radius", [](frame_input& in) { in.settings.radius = 0.85F; } },
     { "bias", [](frame_input& in) { in.settings.bias = 0.03F; } },

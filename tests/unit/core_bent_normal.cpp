@@ -134,7 +134,10 @@ TEST_CASE("On an open plane the bent normal is the normal, at every tilt", "[cor
             const glm::dvec3 n(std::sin(tilt * pi / 180) * std::cos(around * pi / 180),
                                std::sin(tilt * pi / 180) * std::sin(around * pi / 180), std::cos(tilt * pi / 180));
             ao::settings s = ao::settings_of(preset, 2.0F);
-            s.filter = filtered ? 5 : 1;
+            if (!filtered) {
+                s.resolution = ao::resolution::full;
+                s.filter = 1;
+            }
             double worst = 0;
             const pictures p = v.picture(plane(n, -40 * n.z));
             const std::vector<glm::vec4> all = bent(v, p, s);
@@ -220,6 +223,7 @@ TEST_CASE("Visibility beside bent normals is what it is without", "[core][bent]"
     for (const int filter : { 1, 5 }) {
         ao::settings s = ao::settings_of(ao::preset::high);
         s.filter = filter;
+        s.resolution = filter == 1 ? ao::resolution::full : ao::resolution::half;
         const std::vector<glm::vec4> both_of_it = bent(v, p, s);
         const ao::plan planned = plan_for(p, s, v.camera());
         ao::picture depth(ao::pixel_format::r32f, v.width, v.height);

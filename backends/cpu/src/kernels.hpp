@@ -20,7 +20,7 @@ struct plane {
 struct pass_arguments {
     pass_options options;
     float constants[32] = {};
-    int width = 0; // pixels of the picture
+    int width = 0; // texels of the target
     int height = 0;
     plane source;        // depth, visibility or sums
     plane source_second; // component of a source of two
@@ -28,6 +28,7 @@ struct pass_arguments {
     plane source_directions[2]; // third and fourth component, of bent normals
     plane target_directions[2];
     plane normal;
+    plane depth; // eye depth, beside packed visibility of half resolution
     plane target;
     const float* kernel = nullptr;   // x, y, z, 0 per tap
     const float* rotation = nullptr; // all x of the tile, then all y
@@ -82,9 +83,9 @@ struct kernel_table {
     kernel occlusion[2][2]; // [parallel][limit_thickness]
     kernel filter_rows;
     kernel filter_columns;
-    kernel bitmask[2][2]; // [parallel][bent_normal]
-    kernel denoise_rows[2];
-    kernel denoise_columns[2];
+    kernel bitmask[2][2];      // [parallel][bent_normal]
+    kernel denoise_rows[2][2]; // [coarse][bent_normal]
+    kernel denoise_columns[2][2];
     const temporal_kernel_table& temporal;
 };
 

@@ -173,6 +173,7 @@ struct pass_kernels {
         pass.ao_parallel = Parallel;
         pass.ao_mark_background = a.options.mark_background;
         pass.ao_bent_normal = Bent;
+        pass.ao_coarse = a.options.coarse;
         pass.resources.eye_depth = reader<Real>(a.source);
         pass.resources.normals = reader<Real>(a.normal);
         pass.resources.rotation_x = rotation(a, 0);
@@ -199,28 +200,31 @@ struct pass_kernels {
         });
     }
 
-    static denoise_pass<Real, denoise_resources<Real>> denoise(const pass_arguments& a, bool bent)
+    template <bool Coarse, bool Bent>
+    static denoise_pass<Real, denoise_resources<Real>> denoise(const pass_arguments& a)
     {
         denoise_pass<Real, denoise_resources<Real>> pass{};
         pass.ao_filter_radius = a.options.filter_radius;
         pass.ao_normal_source = a.options.normal_source;
         pass.ao_rotate_normals = a.options.rotate_normals;
         pass.ao_parallel = a.options.parallel;
+        pass.ao_coarse = Coarse;
         pass.resources.visibility = reader<Real>(a.source);
-        pass.resources.eye_depth = reader<Real>(a.source_second);
+        pass.resources.depths = reader<Real>(a.source_second);
+        pass.resources.eye_depth = reader<Real>(Coarse ? a.depth : a.source_second);
         pass.resources.normals = reader<Real>(a.normal);
-        pass.ao_bent_normal = bent;
-        if (bent) {
+        pass.ao_bent_normal = Bent;
+        if (Bent) {
             pass.resources.open = reader<Real>(a.source_directions[0]);
             pass.resources.whole = reader<Real>(a.source_directions[1]);
         }
         return pass;
     }
 
-    template <bool Bent>
+    template <bool Coarse, bool Bent>
     AO_CPU_KERNEL static void denoise_rows(const pass_arguments& a, const tile& t)
     {
-        auto pass = denoise(a, Bent);
+        auto pass = denoise<Coarse, Bent>(a);
         const auto c = constants<typename decltype(pass)::ao_denoise_constants>(a);
         for_blocks(t, [&](ivec2 pixel, int x, int y, int count) {
             if constexpr (Bent) {
@@ -233,10 +237,10 @@ struct pass_kernels {
         });
     }
 
-    template <bool Bent>
+    template <bool Coarse, bool Bent>
     AO_CPU_KERNEL static void denoise_columns(const pass_arguments& a, const tile& t)
     {
-        auto pass = denoise(a, Bent);
+        auto pass = denoise<Coarse, Bent>(a);
         const auto c = constants<typename decltype(pass)::ao_denoise_constants>(a);
         for_blocks(t, [&](ivec2 pixel, int x, int y, int count) {
             if constexpr (Bent) {
@@ -255,8 +259,10 @@ struct pass_kernels {
             filter_rows,
             filter_columns,
             { { bitmask<false, false>, bitmask<false, true> }, { bitmask<true, false>, bitmask<true, true> } },
-            { denoise_rows<false>, denoise_rows<true> },
-            { denoise_columns<false>, denoise_columns<true> },
+            { { denoise_rows<false, false>, denoise_rows<false, true> },
+              { denoise_rows<true, false>, denoise_rows<true, true> } },
+            { { denoise_columns<false, false>, denoise_columns<false, true> },
+              { denoise_columns<true, false>, denoise_columns<true, true> } },
             temporal,
         };
     }

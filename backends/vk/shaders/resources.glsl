@@ -14,6 +14,7 @@ layout(constant_id = 6) const bool ao_mark_background = false;
 layout(constant_id = 7) const int ao_filter_radius = 0;
 layout(constant_id = 8) const bool depth_in_z = false; // positions
 layout(constant_id = 9) const int ao_slice_count = 1;
+layout(constant_id = 12) const bool ao_coarse = false;
 #ifdef AO_BENT
 const bool ao_bent_normal = true;
 #else
@@ -41,9 +42,10 @@ real ao_load_stored_depth(ivec2 pixel)
     return depth_in_z ? texel.z : texel.x;
 }
 #ifdef AO_DEPTH_IN_Y
-vec2 ao_load_packed(ivec2 pixel) { return fetch_source(pixel).xy; }
-vec2 ao_load_directions(ivec2 pixel) { return fetch_source(pixel).zw; }
-real ao_load_depth(ivec2 pixel) { return fetch_source(pixel).y; }
+layout(binding = 6) uniform texture2D depths; // of every pixel, where coarse
+vec2 ao_load_packed(ivec2 texel) { return fetch_source(texel).xy; }
+vec2 ao_load_directions(ivec2 texel) { return fetch_source(texel).zw; }
+real ao_load_depth(ivec2 pixel) { return ao_coarse ? texelFetch(depths, pixel, 0).x : fetch_source(pixel).y; }
 #else
 real ao_load_depth(ivec2 pixel) { return fetch_source(pixel).x; }
 #endif
