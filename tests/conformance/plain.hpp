@@ -48,17 +48,17 @@ struct resources {
     const program* tables;
     bool position;
     fault planted;
-    bool packed = false; // the first input is packed visibility and eye depth
+    bool denoises = false; // the first input is packed visibility and eye depth
     bool coarse = false; // the third input is eye depth
 
     glm::vec4 fetch(std::size_t input, glm::ivec2 p) const { return inputs[input]->at(p.x, p.y); }
     float stored_depth(glm::ivec2 p) const { return position ? fetch(0, p).z : fetch(0, p).x; }
     float depth(glm::ivec2 p) const
     {
-        const std::size_t input = packed && coarse ? 2 : 0;
+        const std::size_t input = denoises && coarse ? 2 : 0;
         const int beside = planted == fault::texel_beside ? std::min(p.x + 1, inputs[input]->width - 1) : p.x;
         const glm::vec4 texel = fetch(input, { beside, p.y });
-        return packed && !coarse ? texel.y : texel.x;
+        return denoises && !coarse ? texel.y : texel.x;
     }
     glm::vec4 normal(glm::ivec2 p) const { return fetch(1, p); }
     glm::vec2 rotation(glm::ivec2 p) const
