@@ -12,7 +12,7 @@
 namespace ao {
 
 // The host's pictures of one frame. `normal` is not looked at where facts::normals is from_depth.
-// `visibility`: 1 - occlusion, 1 = open, in facts::output_format.
+// `visibility`: 1 - occlusion, 1 = open, in facts::output_format; of bent normals the directions, too.
 template <class Image>
 struct host_images {
     Image depth;

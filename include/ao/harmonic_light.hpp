@@ -54,21 +54,35 @@ constexpr packed_harmonics pack_harmonics(const harmonic_series<glm::dvec3>& lig
     return packed;
 }
 
+namespace detail {
+
+template <class Real>
+struct harmonic_reader {
+    const packed_harmonics* light;
+
+    constexpr glm::vec<4, Real> harmonic(int index) const
+    {
+        const glm::vec4& c = light->coefficients[static_cast<std::size_t>(index)];
+        return { Real(c.x), Real(c.y), Real(c.z), Real(c.w) };
+    }
+};
+
+} // namespace detail
+
 // Linear RGB for a direction n, one or lanes of them. Real: float, double or lanes.
 template <class Real>
 constexpr glm::vec<3, Real> light_of_harmonics(const packed_harmonics& light, const glm::vec<3, Real>& n)
 {
-    struct resources {
-        const packed_harmonics* light;
-
-        constexpr glm::vec<4, Real> harmonic(int index) const
-        {
-            const glm::vec4& c = light->coefficients[static_cast<std::size_t>(index)];
-            return { Real(c.x), Real(c.y), Real(c.z), Real(c.w) };
-        }
-    };
-    harmonic_light_pass<Real, resources> pass{ { &light } };
+    harmonic_light_pass<Real, detail::harmonic_reader<Real>> pass{ { &light } };
     return pass.ao_harmonic_light(light.order, n);
+}
+
+// The same under ambient occlusion: `bent` is the mean unoccluded direction, in the light's space.
+template <class Real>
+constexpr glm::vec<3, Real> light_of_harmonics(const packed_harmonics& light, const glm::vec<3, Real>& bent, Real visibility)
+{
+    harmonic_light_pass<Real, detail::harmonic_reader<Real>> pass{ { &light } };
+    return pass.ao_harmonic_light_through(light.order, bent, visibility);
 }
 
 } // namespace ao

@@ -2,6 +2,8 @@
 #include "unit/core_geometry.hpp"
 
 #include "ao/conformance/reference.hpp"
+#include "ao/harmonic_light.hpp"
+#include "ao/sphere_rule.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -277,4 +279,32 @@ TEST_CASE("Bent normals have a plan of their own, and cost nothing where they ar
     s.bent_normal = true;
     s.method = ao::method::hemisphere;
     CHECK(reason() == "bent normals come from the method bitmask");
+}
+
+TEST_CASE("Light of harmonics beside a wall is nearer to truth along the bent normal than along the normal",
+          "[core][bent][light]")
+{
+    // As above the wall at x = h blocks what lies beyond h of the unit disc. Light of 1 + d . x brings the open share of the disc
+    // plus d . the open mean; unoccluded it brings 1 + 2/3 d . n.
+    for (const double h : { 0.05, 0.25, 0.5, 0.75 }) {
+        const double visibility = 1 - (std::acos(h) - h * std::sqrt(1 - h * h)) / pi;
+        const glm::dvec3 open(-2 * std::pow(1 - h * h, 1.5) / (3 * pi), 0, 1.0 / 3 + h / 2 - h * h * h / 6);
+        const glm::dvec3 bent = glm::normalize(open);
+        double along_bent = 0;
+        double along_normal = 0;
+        for (const glm::dvec3 d : { glm::dvec3(1, 0, 0), glm::dvec3(-1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0.6, 0, 0.8),
+                                    glm::dvec3(-0.6, 0.48, 0.64) }) {
+            const auto sky = [&](const ao::direction3& x) { return glm::dvec3(1 + d.x * x[0] + d.y * x[1] + d.z * x[2]); };
+            const auto packed = ao::pack_harmonics(ao::averaged(ao::project<glm::dvec3>(*ao::fibonacci_rule(20000), 1, sky), 1));
+            const double truth = visibility + glm::dot(d, open);
+            along_bent += std::pow(ao::light_of_harmonics(packed, bent, visibility).x - truth, 2);
+            along_normal += std::pow(ao::light_of_harmonics(packed, glm::dvec3(0, 0, 1), visibility).x - truth, 2);
+            // What the wall leaves open of constant light is exact.
+            const auto grey = ao::pack_harmonics(ao::averaged(
+                ao::project<glm::dvec3>(*ao::fibonacci_rule(20000), 0, [](const ao::direction3&) { return glm::dvec3(1); }), 1));
+            CHECK(ao::light_of_harmonics(grey, bent, visibility).x == Approx(visibility).epsilon(1e-6));
+        }
+        CAPTURE(h, along_bent, along_normal);
+        CHECK(along_bent < 0.25 * along_normal);
+    }
 }

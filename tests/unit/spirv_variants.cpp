@@ -25,7 +25,7 @@ namespace {
 
 // Constant ids of both backends' shaders/geometry.glsl and shaders/shading.glsl.
 enum geometry_id : std::uint32_t { alpha_map, normal_map, uvs, write_position = 5, write_normal, hardware_sampling = 12 };
-enum shading_id : std::uint32_t { stored_position, visibility = 3, maps, reflections, frames, blends };
+enum shading_id : std::uint32_t { stored_position, visibility = 3, maps, reflections, frames, blends, bent_normal = 11, bounces };
 
 using constants = std::map<std::uint32_t, std::uint32_t>;
 using module = std::span<const std::uint32_t>;
@@ -102,6 +102,15 @@ void check_shading(const std::string& backend, module shade, const names& always
                  << " with visibility, " << mapped.instructions() << " with maps too, " << mirror.instructions()
                  << " with reflections too, " << blended.instructions() << " with blends too, " << all.instructions()
                  << " with everything");
+    const module_view bent = variant(shade, { { stored_position, 1 }, { visibility, 1 }, { bent_normal, 1 } });
+    const module_view bounced = variant(shade, { { stored_position, 1 }, { visibility, 1 }, { bounces, 1 } });
+    WARN(backend << ", instructions of shading with visibility: " << bent.instructions() << " along bent normals, "
+                 << bounced.instructions() << " with bounces");
+    CHECK(seen.instructions() < bent.instructions());
+    CHECK(seen.instructions() < bounced.instructions());
+    // The direction lies beside visibility.
+    CHECK(bent.resources() == seen.resources());
+    CHECK(bounced.resources() == seen.resources());
     CHECK(plain.instructions() < seen.instructions());
     CHECK(seen.instructions() < mapped.instructions());
     CHECK(seen.instructions() < mirror.instructions());
@@ -116,7 +125,36 @@ void check_shading(const std::string& backend, module shade, const names& always
           also({ "visibility_picture", "heap_block", "surface_picture", "frame_picture", "statistics_block", "targets" }));
 }
 
+// What bent normals add to an estimate and to a window of the denoiser.
+void check_bent(const std::string& backend, const module_view& lean, const module_view& bent)
+{
+    WARN(backend << ", instructions: " << lean.instructions() << ", " << bent.instructions() << " with bent normals");
+    CHECK(lean.instructions() < bent.instructions());
+    CHECK(lean.resources() == bent.resources());
+}
+
 } // namespace
+
+#ifdef AO_HAS_GL
+TEST_CASE("OpenGL's estimates and denoiser have nothing of bent normals where these are not asked for")
+{
+    using namespace ao::gl::shaders;
+    // Constant ids of shaders/bitmask.glsl and denoise.glsl: 6 packed output, 13 bent normals.
+    check_bent("gl, bitmask", variant(bitmask_comp, { { 6, 1 } }), variant(bitmask_comp, { { 6, 1 }, { 13, 1 } }));
+    check_bent("gl, denoise rows", variant(denoise_rows_comp, {}), variant(denoise_rows_comp, { { 13, 1 } }));
+    check_bent("gl, denoise columns", variant(denoise_columns_comp, {}), variant(denoise_columns_comp, { { 13, 1 } }));
+}
+#endif
+
+#ifdef AO_HAS_VK
+TEST_CASE("Vulkan's estimates and denoiser have nothing of bent normals where these are not asked for")
+{
+    using namespace ao::vk::shaders;
+    check_bent("vk, bitmask", variant(bitmask_comp_packed, {}), variant(bitmask_comp_bent_packed, {}));
+    check_bent("vk, denoise rows", variant(denoise_rows_comp, {}), variant(denoise_rows_comp_bent, {}));
+    check_bent("vk, denoise columns", variant(denoise_columns_comp, {}), variant(denoise_columns_comp_bent, {}));
+}
+#endif
 
 #ifdef AO_HAS_GL
 TEST_CASE("OpenGL's shaders read what materials need and no more")

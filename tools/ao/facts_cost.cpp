@@ -203,6 +203,7 @@ options_of_pass options_of(const ao::plan& p, const ao::pass& each)
              { "ao_filter_radius", number(o.filter_radius) },
              { "ao_slice_count", number(o.slice_count) },
              { "ao_coarse", o.coarse },
+             { "ao_bent_normal", o.bent_normal }, // chooses the module
              { "depth_in_z", p.facts.depth == depth_source::position } };
 }
 
@@ -238,11 +239,13 @@ std::span<const std::uint32_t> shader_of(const ao::pass& each)
     case pass_type::filter_columns:
         return filter_columns_comp;
     case pass_type::bitmask:
+        if (each.options.bent_normal)
+            return each.options.mark_background ? bitmask_comp_bent_packed : bitmask_comp_bent;
         return each.options.mark_background ? bitmask_comp_packed : bitmask_comp;
     case pass_type::denoise_rows:
-        return denoise_rows_comp;
+        return each.options.bent_normal ? denoise_rows_comp_bent : denoise_rows_comp;
     case pass_type::denoise_columns:
-        return denoise_columns_comp;
+        return each.options.bent_normal ? denoise_columns_comp_bent : denoise_columns_comp;
     }
     return {};
 }

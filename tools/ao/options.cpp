@@ -135,6 +135,7 @@ ao::settings parse_settings(const render_arguments& a)
     } };
     if (!a.resolution.empty())
         s.resolution = choose("--resolution", a.resolution, resolutions);
+    s.bent_normal = a.bent_normal;
     s.radius = static_cast<float>(a.radius);
     s.bias = static_cast<float>(a.bias.value_or(static_cast<double>(s.bias)));
     s.filter = a.filter.value_or(s.filter);
@@ -164,6 +165,8 @@ void add_render_options(CLI::App& command, render_arguments& a)
     command.add_option("--taps", a.taps, "per pixel, 1 to 1024");
     command.add_option("--slices", a.slices, "of bitmask, 1 to 16: taps are of all slices together");
     command.add_option("--resolution", a.resolution, "of bitmask: full|half, one estimate a pixel or per 2x2 pixels");
+    command.add_flag("--bent-normal", a.bent_normal,
+                     "of bitmask: the mean open direction as well; --shade takes ambient light there");
     command.add_option("--radius", a.radius, "scene units");
     command.add_option("--bias", a.bias, "scene units");
     command.add_option("--thickness", a.thickness, "in radii, or 'infinite'");
@@ -174,6 +177,7 @@ void add_render_options(CLI::App& command, render_arguments& a)
                        "input: d32f|d24|position16|position32, and of rays linear; without it d32f, or linear of rays");
     command.add_option("--normals", a.normals, "input: rgba16f|rgb10a2|octahedral|none");
     command.add_flag("--shade", a.shade, "shade the scene, ambient light scaled by visibility");
+    command.add_flag("--multi-bounce", a.multi_bounce, "tint visibility by the diffuse color, for --shade");
     command.add_option("--blend", a.blend, "file of blended materials, for --shade (docs/scenes.md)");
     command.add_option("--lights", a.lights, "default|none|file of lights, for --shade (docs/scenes.md)");
     command.add_option("--size", a.size, "WIDTHxHEIGHT");
@@ -224,7 +228,12 @@ render_options check_arguments(const render_arguments& a)
     static constexpr std::array<std::pair<std::string_view, bool>, 2> origins{ { { "raster", false }, { "rays", true } } };
     o.rays = choose("--gbuffer", a.gbuffer, origins);
     parse_inputs(a, o.inputs);
+    if (o.settings.bent_normal)
+        o.inputs.output_format = pixel_format::rgba16f;
     o.shade = a.shade;
+    if (!a.shade && a.multi_bounce)
+        throw error("--multi-bounce needs --shade");
+    o.multi_bounce = a.multi_bounce;
     if (!a.shade && (!a.blend.empty() || !a.lights.empty()))
         throw error(std::string(a.blend.empty() ? "--lights" : "--blend") + " needs --shade");
     o.blend = a.blend;

@@ -35,6 +35,7 @@ struct render_options {
     facts inputs;      // parallel set from the projection
     bool rays = false; // where the G-buffer comes from; else each backend draws its own
     bool shade = false;
+    bool multi_bounce = false;      // with shade
     std::string blend;              // file, empty: none
     std::string lights = "default"; // default, none, or a file
     extent size{ 1280, 720 };
@@ -62,6 +63,7 @@ struct render_arguments {
     long long seed = 1, reference = 0;
     double radius = 1.0, yaw = 0.0, pitch = 0.0, fov = 0.0;
     bool has_yaw = false, has_pitch = false, has_fov = false, has_frames = false, progress = false, shade = false;
+    bool bent_normal = false, multi_bounce = false;
     temporal_arguments temporal;
 };
 void add_render_options(CLI::App& command, render_arguments& read);

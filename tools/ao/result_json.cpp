@@ -76,7 +76,7 @@ void add_scenes(json& j, const render_result& r, const report_data& data)
         row["of"] = a.what;
         if (a.what == "shaded color")
             j["shaded_agreement"].push_back(row);
-        else if (a.what != "visibility")
+        else if (a.what != "visibility" && a.what != "bent normal")
             j["gbuffer_agreement"].push_back(row);
     }
     if (r.shading) {
@@ -109,6 +109,8 @@ std::string json_of(const render_result& r)
                       { "taps", o.settings.taps },
                       { "slices", o.settings.slices },
                       { "resolution", o.settings.resolution == resolution::half ? "half" : "full" },
+                      { "bent_normal", o.settings.bent_normal },
+                      { "multi_bounce", o.multi_bounce },
                       { "radius", o.settings.radius },
                       { "bias", o.settings.bias },
                       { "thickness", number_or_null(static_cast<double>(o.settings.thickness)) },
@@ -136,6 +138,11 @@ std::string json_of(const render_result& r)
     for (const report_agreement& a : data.agreements)
         if (a.what == "visibility")
             j["agreement"].push_back(agreement_of(a));
+    if (o.settings.bent_normal)
+        j["bent_agreement"] = json::array();
+    for (const report_agreement& a : data.agreements)
+        if (a.what == "bent normal")
+            j["bent_agreement"].push_back(agreement_of(a));
     if (!data.scenes.empty())
         add_scenes(j, r, data);
     j["missing_textures"] = r.missing_textures;

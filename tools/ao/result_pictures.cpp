@@ -22,6 +22,16 @@ std::vector<std::uint8_t> depth_picture(const shown_surfaces& s)
     return to_bytes(gray);
 }
 
+// Components -1 to 1 as 0 to 1; black where there is no surface.
+std::vector<std::uint8_t> bent_picture(const std::vector<float>& directions, const std::vector<std::uint8_t>& hit)
+{
+    std::vector<float> rgb;
+    rgb.reserve(directions.size());
+    for (std::size_t i = 0; i < directions.size(); ++i)
+        rgb.push_back(hit[i / 3] != 0 ? 0.5f + 0.5f * directions[i] : 0.0f);
+    return to_bytes(rgb);
+}
+
 std::vector<std::uint8_t> normal_picture(const shown_surfaces& s)
 {
     std::vector<float> rgb;
@@ -81,6 +91,8 @@ void write_pictures(const render_result& r, report_data data)
     for (const run_outcome& run : runs) {
         show("visibility-" + run.label, 1, to_bytes(run.visibility), true);
         write("visibility-" + run.label + ".exr", encode_exr(o.size, run.visibility));
+        if (!run.bent_normal.empty())
+            show("bent-normal-" + run.label, 3, bent_picture(run.bent_normal, r.surfaces[run.scene].hit), true);
         if (&run == &runs.front() && r.truth) {
             show("reference", 1, to_bytes(truth), true);
             write("reference.exr", encode_exr(o.size, truth));

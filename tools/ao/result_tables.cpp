@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <span>
 
 namespace ao::tools {
 namespace {
@@ -55,6 +56,20 @@ std::vector<float> masked(const std::vector<float>& values, const std::vector<st
         if (mask[i] != 0)
             kept.push_back(values[i]);
     return kept;
+}
+
+void add_bent_pair(report_data& data, const run_outcome& one, const run_outcome& other)
+{
+    const std::size_t pixels = one.visibility.size();
+    std::size_t differing = 0;
+    double largest = 0;
+    for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
+        const agreement directions =
+            agreement_of(std::span(one.bent_normal).subspan(3 * pixel, 3), std::span(other.bent_normal).subspan(3 * pixel, 3));
+        differing += directions.differing != 0 ? 1u : 0u;
+        largest = std::max(largest, directions.largest);
+    }
+    data.agreements.push_back({ "bent normal", one.label, other.label, pixels, differing, largest });
 }
 
 void add_pair(report_data& data, const render_result& r, std::size_t i, std::size_t k)
@@ -171,6 +186,8 @@ report_data tables_of(const render_result& r)
             const agreement a = agreement_of(r.outcomes.runs[i].visibility, r.outcomes.runs[k].visibility);
             data.agreements.push_back(
                 { "visibility", r.outcomes.runs[i].label, r.outcomes.runs[k].label, a.pixels, a.differing, a.largest });
+            if (o.settings.bent_normal)
+                add_bent_pair(data, r.outcomes.runs[i], r.outcomes.runs[k]);
         }
     add_scenes(data, r);
     // All pairs of one kind together, kinds in the order in which they came.

@@ -1,5 +1,6 @@
 #include "ao/runs.hpp"
 
+#include "ao/half.hpp"
 #include "ao/outcome.hpp"
 #include "ao/result_text.hpp"
 #include "host/runner.hpp"
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstring>
 #include <functional>
 
 namespace ao::tools {
@@ -72,9 +72,17 @@ run_outcome run(host::runner& r, const std::string& label, const run_inputs& in,
                                                                           : pictures[host::scene_picture::depth];
     (void)take(out.backend, r.upload(depth, pictures[host::scene_picture::normal]));
     time_frames(out, r, in.frames);
-    const ao::picture visibility = take(out.backend, r.download());
-    out.visibility.resize(visibility.pixels());
-    std::memcpy(out.visibility.data(), visibility.bytes.data(), visibility.bytes.size());
+    out.stored = take(out.backend, r.download());
+    for (std::size_t i = 0; i < out.stored.pixels(); ++i) {
+        if (!in.settings.bent_normal) {
+            out.visibility.push_back(out.stored.texel<float>(i));
+            continue;
+        }
+        const auto halves = out.stored.texel<std::array<std::uint16_t, 4>>(i);
+        out.visibility.push_back(half_to_float(halves[0]));
+        for (std::size_t c = 1; c < 4; ++c)
+            out.bent_normal.push_back(half_to_float(halves[c]));
+    }
     return out;
 }
 
@@ -101,7 +109,7 @@ void fill_targets(scene_outcome& out, host::scene_runner& r, const run_inputs& i
             out.drawn.pictures[i] = take(out.backend, r.download(static_cast<host::scene_picture>(i)));
 }
 
-void shade(scene_outcome& out, host::scene_runner& r, const run_inputs& in, const std::vector<float>& visibility)
+void shade(scene_outcome& out, host::scene_runner& r, const run_inputs& in, const ao::picture& visibility)
 {
     const auto start = clock::now();
     (void)take(out.backend, r.prepare_shading(*in.shading, in.heap));
@@ -110,9 +118,7 @@ void shade(scene_outcome& out, host::scene_runner& r, const run_inputs& in, cons
     out.clamped = take(out.backend, r.clamped_weights());
     out.plain = take(out.backend, r.download(host::scene_picture::color));
     stop_if_interrupted();
-    ao::picture map(pixel_format::r32f, in.targets.width, in.targets.height);
-    std::memcpy(map.bytes.data(), visibility.data(), map.bytes.size());
-    (void)take(out.backend, r.upload(host::scene_picture::visibility, map));
+    (void)take(out.backend, r.upload(host::scene_picture::visibility, visibility));
     out.shade_ms = median_of_frames(in.frames, out.backend, [&] { return r.shade(); });
     out.color = take(out.backend, r.download(host::scene_picture::color));
 }
@@ -147,7 +153,7 @@ all_outcomes run_all(const render_options& o, const run_inputs& in)
             }
         }
         if (in.shading)
-            shade(all.scenes.back(), *scenes.front(), in, all.runs[first].visibility);
+            shade(all.scenes.back(), *scenes.front(), in, all.runs[first].stored);
     };
     if (o.cpu)
         add("cpu", { { o.lanes == 0 ? "" : o.lanes == 1 ? "scalar" : "lanes" + std::to_string(o.lanes), "cpu" } });

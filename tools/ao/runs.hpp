@@ -42,7 +42,9 @@ struct run_outcome {
     double total_ms = 0;
     double first_frame_ms = 0;
     std::vector<float> visibility;
-    std::size_t scene = 0; // index of the outcome whose pictures it read
+    std::vector<float> bent_normal; // x, y, z, view space; empty where not asked for
+    ao::picture stored;             // both, as the backend stored them
+    std::size_t scene = 0;          // index of the outcome whose pictures it read
 };
 
 // What a backend's rasterizer drew and its shading made of it, with the visibility of its first run.

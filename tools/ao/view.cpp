@@ -35,6 +35,9 @@ ao::shade_facts shade_facts_of(const render_options& o)
     f.normals = o.inputs.normals;
     f.normal_format = o.inputs.normal_format;
     f.parallel = o.inputs.parallel;
+    f.bent_normal = o.settings.bent_normal;
+    f.visibility_format = o.inputs.output_format;
+    f.multi_bounce = o.multi_bounce;
     return f;
 }
 

@@ -1,6 +1,7 @@
 // What is the same for every backend's scene_runner.
 #pragma once
 
+#include "ao/half.hpp"
 #include "host/scene_runner.hpp"
 
 #include <array>
@@ -256,6 +257,11 @@ private:
         for (std::size_t i = 0; i < open.pixels(); ++i) {
             if (format == pixel_format::r8) {
                 open.set_texel(i, std::uint8_t{ 255 });
+            }
+            else if (format == pixel_format::rgba16f) {
+                // No direction: the normal stands for it.
+                open.set_texel(i,
+                               std::array{ float_to_half(1.0F), float_to_half(0.0F), float_to_half(0.0F), float_to_half(0.0F) });
             }
             else {
                 open.set_texel(i, 1.0F);

@@ -36,3 +36,12 @@ AO_PASS vec3 ao_harmonic_light(int order, vec3 n)
     }
     return sum;
 }
+
+// Light that reaches a surface through what occlusion leaves open of its hemisphere: along the mean unoccluded direction
+// (bent_normal.h) and scaled by visibility. Light that is the same all around comes out exactly.
+AO_PASS vec3 ao_harmonic_light_through(int order, vec3 bent, real visibility)
+{
+    vec3 light = ao_harmonic_light(order, bent);
+    AO_PRECISE vec3 arriving = vec3(light.x * visibility, light.y * visibility, light.z * visibility);
+    return arriving;
+}

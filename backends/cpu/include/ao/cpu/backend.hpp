@@ -7,7 +7,7 @@
 //   normal      view or world space; any length, zero and non-finite ones become +Z
 //               rgba32f or rgba16f: xyz.  rgb10a2: xyz * 0.5 + 0.5, x in the low bits.
 //               rg16: octahedral * 0.5 + 0.5, x in the low half.  Not looked at where it is rebuilt from depth.
-// Output: visibility in [0, 1], 1 = open, r32f or r8 (to nearest). It may not overlap an input.
+// Output: visibility in [0, 1], 1 = open, r32f or r8 (to nearest); rgba16f with bent normals. It may not overlap inputs.
 // Every view has exactly the plan's width and height, and at most 2^31 - 1 words of 4 bytes.
 //
 // Memory of a program: 4 bytes per pixel of eye depth unless the input is linear, 12 per pixel if there is a filter, 16 KiB of

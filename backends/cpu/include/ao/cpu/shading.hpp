@@ -9,7 +9,7 @@
 //
 // Pictures: views of exactly the plan's width and height, at most 2^31 - 1 words of 4 bytes, as ao/cpu/rasterizer.hpp writes
 // them: depth (d32f, or d24 in the low 24 bits) or position, normal, ids rg32ui, and where the plan's options say so surface and
-// frame rgba32f, visibility r32f or r8. color is rgba32f, linear, written whole; it may not overlap an input.
+// frame rgba32f, visibility r32f, r8 or rgba16f. color is rgba32f, linear, written whole; it may not overlap an input.
 //
 // Memory of a program: copies of the table and, where it is read, of the heap; 16 bytes per pixel and target of the plan. A
 // binding is a few pointers. Nothing is allocated when a pass is recorded, other than tasks by oneTBB.

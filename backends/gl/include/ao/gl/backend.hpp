@@ -19,7 +19,7 @@
 //   normal      view space, or world space with facts::world_normals; any length.
 //               vector: GL_RGBA16F or GL_RGBA32F, xyz. unorm10: GL_RGB10_A2, n * 0.5 + 0.5. octahedral: GL_RG16, the same of
 //               the octahedral map. from_depth: none; the name is not looked at.
-//   visibility  GL_R32F or GL_R8, 1 = open, 0 = occluded; level 0 is written whole. Multiply ambient light by it.
+//   visibility  GL_R32F or GL_R8, with bent normals GL_RGBA16F; 1 = open, 0 = occluded; level 0 is written whole.
 // The last bit of d24 as a float is the driver's: llvmpipe multiplies by the rounded 1 / (2^24 - 1), one step off for half of
 // the codes. Everything else is exact.
 // The first row in memory is the bottom row of the picture in GL's convention: camera_projection's Y points up.

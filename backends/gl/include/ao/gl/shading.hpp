@@ -10,7 +10,7 @@
 // Context, errors and lifetimes are as in ao/gl/backend.hpp; options::route is not looked at.
 //
 // Pictures: GL_TEXTURE_2D, one sample, level 0 of the plan's size, as ao/gl/rasterizer.hpp writes them: depth or position,
-// normal, ids, and where the plan's options say so surface, frame, visibility (GL_R32F or GL_R8). color is GL_RGBA32F, linear,
+// normal, ids, and where the options say so surface, frame, visibility (GL_R32F, GL_R8, GL_RGBA16F). color is GL_RGBA32F, linear,
 // written whole. Immutable and mutable textures as in ao/gl/backend.hpp.
 //
 // Memory beside the host's textures: the table, the heap, 16 bytes per pixel and target of the plan, 256 bytes per pass.

@@ -14,7 +14,7 @@
 //   normal      of any length, in view space (right-handed, -Z ahead) or world space: R16G16B16A16_SFLOAT or
 //               R32G32B32A32_SFLOAT; * 0.5 + 0.5 in A2B10G10R10_UNORM_PACK32; octahedral * 0.5 + 0.5 in R16G16_UNORM.
 //               Usage SAMPLED. Not looked at (may be null) where facts::normals is from_depth.
-//   visibility  1 = open, in R32_SFLOAT or R8_UNORM. Usage STORAGE. Every pixel is written.
+//   visibility  1 = open, in R32_SFLOAT or R8_UNORM; R16G16B16A16_SFLOAT with bent normals. Usage STORAGE. All is written.
 //
 // What the host does around record():
 //   before  depth and normal are in the layout given to bind() (SHADER_READ_ONLY_OPTIMAL, DEPTH_STENCIL_READ_ONLY_OPTIMAL,

@@ -14,7 +14,7 @@
 //   depth or position, normal    as in ao/vk/backend.hpp. Usage SAMPLED.
 //   ids                          R32G32_UINT. Usage SAMPLED.
 //   surface, frame               R32G32B32A32_SFLOAT, where shade_options::maps and ::frames say so. Usage SAMPLED.
-//   visibility                   R32_SFLOAT or R8_UNORM, where shade_facts::visibility says so. Usage SAMPLED.
+//   visibility                   R32_SFLOAT, R8_UNORM or R16G16B16A16_SFLOAT, where shade_facts says so. Usage SAMPLED.
 //   color                        R32G32B32A32_SFLOAT, linear. Usage STORAGE. Every pixel is written.
 //
 // What the host does around the passes:
