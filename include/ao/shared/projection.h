@@ -62,6 +62,8 @@ AO_FN real ao_eye_depth(ao_depth_decode c, vec2 pixel, real stored, bool affine)
 {
     AO_PRECISE real denominator = stored * c.scale + c.offset + pixel.x * c.slope_x + pixel.y * c.slope_y;
     AO_PRECISE real d = affine ? denominator : c.numerator / denominator;
-    mask seen = stored != c.cleared && ao_is_surface(d, c.background);
+    // Not `stored != c.cleared`: a driver may take a denormal for 0.
+    AO_PRECISE real from_cleared = abs(stored - c.cleared);
+    mask seen = from_cleared > real(1e-37) && ao_is_surface(d, c.background);
     return mix(real(0), d, seen);
 }
