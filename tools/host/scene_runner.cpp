@@ -46,7 +46,8 @@ ao::result<success> scene_runner::check_upload(const gbuffer_facts& f, scene_pic
     if (!target && !visibility) {
         return error(errc::plan_mismatch, "there is no " + what + " picture to upload to");
     }
-    const bool fits = visibility ? from.format == pixel_format::r32f || from.format == pixel_format::r8 : from.format == *target;
+    const auto one_of = [&](auto... formats) { return ((from.format == formats) || ...); };
+    const bool fits = visibility ? one_of(pixel_format::r32f, pixel_format::r8, pixel_format::rgba16f) : from.format == *target;
     if (!fits || from.width != f.width || from.height != f.height ||
         from.bytes.size() != picture(from.format, f.width, f.height).bytes.size()) {
         return error(errc::invalid_size, "the " + what + " picture has another size or format than the targets");
