@@ -17,7 +17,16 @@
 
 namespace plain {
 
-enum class fault { none, bias_ignored, texel_beside, border_short, tile_transposed, thickness_ignored, last_tap_lost };
+enum class fault {
+    none,
+    bias_ignored,
+    texel_beside,
+    border_short,
+    tile_transposed,
+    thickness_ignored,
+    last_tap_lost,
+    directions_swapped
+};
 
 // Texels of four floats, as a texture unit would deliver them.
 struct image {
@@ -49,7 +58,7 @@ struct resources {
     bool position;
     fault planted;
     bool denoises = false; // the first input is packed visibility and eye depth
-    bool coarse = false; // the third input is eye depth
+    bool coarse = false;   // the third input is eye depth
 
     glm::vec4 fetch(std::size_t input, glm::ivec2 p) const { return inputs[input]->at(p.x, p.y); }
     float stored_depth(glm::ivec2 p) const { return position ? fetch(0, p).z : fetch(0, p).x; }
@@ -69,7 +78,11 @@ struct resources {
     float visibility(glm::ivec2 p) const { return fetch(0, p).x; }
     glm::vec2 row_sum(glm::ivec2 p) const { return glm::vec2(fetch(0, p)); }
     glm::vec2 packed(glm::ivec2 p) const { return glm::vec2(fetch(0, p)); }
-    glm::vec2 directions(glm::ivec2 p) const { return { fetch(0, p).z, fetch(0, p).w }; }
+    glm::vec2 directions(glm::ivec2 p) const
+    {
+        const glm::vec4 texel = fetch(0, p);
+        return planted == fault::directions_swapped ? glm::vec2(texel.w, texel.z) : glm::vec2(texel.z, texel.w);
+    }
 };
 
 class backend {

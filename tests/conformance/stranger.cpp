@@ -89,8 +89,11 @@ TEST_CASE("faults planted into a stranger's passes are found, by bits and by bou
 {
     using plain::fault;
     for (const fault planted : { fault::bias_ignored, fault::texel_beside, fault::border_short, fault::tile_transposed,
-                                 fault::thickness_ignored, fault::last_tap_lost }) {
+                                 fault::thickness_ignored, fault::last_tap_lost, fault::directions_swapped }) {
         for (const bool exact : { true, false }) {
+            if (planted == fault::directions_swapped && !exact) {
+                continue; // bent normals have no bounds but their length
+            }
             plain_subject subject{ exact, planted };
             const auto faults = faults_of(subject, { .functions = false });
             INFO("fault " << static_cast<int>(planted) << (exact ? ", exact" : ", bounds"));
