@@ -133,6 +133,10 @@ static_assert(m::ao_eye_depth(decode, m::vec2(0.5F, 0.5F), decode.cleared, false
 static_assert(m::ao_eye_depth(decode, m::vec2(0.5F, 0.5F), 2.0F, false) == 0.0F);    // beyond infinity
 static_assert(m::ao_eye_depth(decode, m::vec2(0.5F, 0.5F), 0.9999F, false) == 0.0F); // beyond `background`
 static_assert(m::ao_eye_depth(decode, m::vec2(0.5F, 0.5F), 0.9F, false) > 0.9F);
+// Reversed depth: a driver may take a denormal for the cleared 0, so every denormal counts as that.
+constexpr m::ao_depth_decode reversed{ 0, -59.75F, 60, 0, 0, 1e30F, 0, 0 };
+static_assert(m::ao_eye_depth(reversed, m::vec2(0.5F, 0.5F), 1e-40F, true) == 0.0F);
+static_assert(m::ao_eye_depth(reversed, m::vec2(0.5F, 0.5F), 1e-30F, true) == 60.0F);
 
 // Shared constants hold reals only, a multiple of four of them.
 static_assert(sizeof(m::ao_projection) == 32 && sizeof(m::ao_depth_decode) == 32 && sizeof(m::ao_rotation) == 48);
