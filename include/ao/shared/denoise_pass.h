@@ -52,61 +52,77 @@ AO_FN integer ao_halved(integer n)
     return integer(real(n) * real(0.5));
 }
 
-// Along the rows step_x is 1 and step_y 0, along the columns the other way round.
-AO_PASS ao_denoise_sum ao_denoise_window(ao_denoise_constants c, ivec2 pixel, int step_x, int step_y)
+// A window along the pixel's row or, where not `rows`, its column.
+AO_PASS ao_denoise_sum ao_denoise_window(ao_denoise_constants c, ivec2 pixel, bool rows)
 {
     real own = ao_load_depth(pixel);
     mask foreground = ao_is_surface(own, c.background);
     real d = mix(real(1), own, foreground);
     AO_PRECISE vec2 centre = vec2(real(pixel.x) + real(0.5), real(pixel.y) + real(0.5));
     vec3 position = ao_view_point(c.projection, centre, d, ao_parallel);
-    vec3 normal = ao_shading_normal(c.projection, c.normal_to_view, vec2(c.width, c.height), pixel, position, ao_parallel);
-    real plane = ao_dot(normal, position);
     vec3 direction = vec3(real(0), real(0), real(1)); // the normal as stored, of whatever space
-    if (ao_normal_source != ao_normal_from_depth) {
+    vec3 normal = direction;
+    if (ao_normal_source == ao_normal_from_depth) {
+        normal = ao_normal_of_depth(c.projection, vec2(c.width, c.height), pixel, position, ao_parallel);
+    }
+    else {
         direction = ao_stored_direction(pixel);
+        normal = direction;
+        if (ao_rotate_normals) {
+            normal = ao_rotate(c.normal_to_view, direction);
+        }
     }
     AO_PRECISE real sharpness = real(1) / (c.plane_constant + d * d * ao_plane_depth);
+    // Along the normal: where the pixel's plane lies, what a point moves per eye depth (in parallel projection: where it is at
+    // depth 0), and how that grows from pixel to pixel of the window.
+    real plane = ao_dot(normal, position);
+    vec3 ray = ao_view_point(c.projection, centre, ao_parallel ? real(0) : real(1), ao_parallel);
+    real rise = ao_dot(normal, ray);
+    AO_PRECISE real climb = rows ? normal.x * c.projection.slope_x : normal.y * c.projection.slope_y;
 
-    // Texels of the packed picture, and how many pixels apart these lie.
-    int apart_x = ao_coarse ? 1 + step_x : 1;
-    int apart_y = ao_coarse ? 2 : 1;
-    ivec2 nearest = pixel;
+    // Places along the window, of texels of the packed picture; these lie `apart` pixels from each other.
+    integer middle = rows ? pixel.x : pixel.y;
+    integer nearest = middle;
+    int apart = 1;
     int before = ao_filter_radius;
     int after = ao_filter_radius;
+    real least = real(0);
     if (ao_coarse) {
-        nearest = ivec2(step_x == 1 ? ao_halved(pixel.x) : pixel.x, ao_halved(pixel.y));
+        nearest = ao_halved(middle);
+        apart = 2;
         before = ao_filter_radius / 2;
         after = (ao_filter_radius + 1) / 2;
+        least = ao_coarse_floor;
     }
-    real least = ao_coarse ? ao_coarse_floor : real(0);
+    integer row = ao_coarse ? ao_halved(pixel.y) : pixel.y; // of the packed picture, along the rows
+    real size = rows ? c.width : c.height;
 
     real hidden = real(0);
     real weight = real(0);
     vec3 none = vec3(real(0), real(0), real(0));
     ao_openness openness = { none, none };
     for (int i = -before; i <= after; ++i) {
-        integer column = nearest.x + integer(i * step_x);
-        integer row = nearest.y + integer(i * step_y);
-        ivec2 place = ivec2(column * integer(apart_x), row * integer(apart_y));
-        mask inside = column >= integer(0) && real(place.x) < c.width && row >= integer(0) && real(place.y) < c.height;
+        integer moved = nearest + integer(i);
+        integer place = moved * integer(apart);
+        integer distance = place - middle;
+        mask inside = moved >= integer(0) && real(place) < size;
         if (ao_coarse) {
             // As far to one side as to the other, wherever between the estimates the pixel lies.
-            integer distance = step_x == 1 ? place.x - pixel.x : place.y - pixel.y;
             inside = inside && distance >= integer(-ao_filter_radius) && distance <= integer(ao_filter_radius);
         }
-        ivec2 texel = ivec2(mix(nearest.x, column, inside), mix(nearest.y, row, inside));
+        integer found = mix(nearest, moved, inside);
+        ivec2 texel = rows ? ivec2(found, row) : ivec2(pixel.x, found);
         vec2 other = ao_load_packed(texel);
         mask used = inside && other.x >= real(0);
         vec2 value = ao_unpack_visibility(mix(real(0), other.x, used));
-        AO_PRECISE vec2 there = vec2(real(place.x) + real(0.5), real(place.y) + real(0.5));
-        vec3 seen = ao_view_point(c.projection, there, mix(real(1), other.y, used), ao_parallel);
-        AO_PRECISE real away = ao_dot(normal, seen) - plane;
+        real depth = mix(real(1), other.y, used);
+        AO_PRECISE real along = rise + real(distance) * climb;
+        AO_PRECISE real away = (ao_parallel ? along - normal.z * depth : along * depth) - plane;
         AO_PRECISE real near = max(real(1) - away * away * sharpness, least);
         AO_PRECISE real weighed = near * near * value.y;
         if (ao_normal_source != ao_normal_from_depth) {
-            ivec2 at = ivec2(texel.x * integer(apart_x), texel.y * integer(apart_y));
-            AO_PRECISE real turned = weighed * max(ao_likeness(direction, at), least);
+            integer at = found * integer(apart);
+            AO_PRECISE real turned = weighed * max(ao_likeness(direction, rows ? ivec2(at, pixel.y) : ivec2(pixel.x, at)), least);
             weighed = turned;
         }
         real share = mix(real(0), weighed, used);
@@ -116,8 +132,8 @@ AO_PASS ao_denoise_sum ao_denoise_window(ao_denoise_constants c, ivec2 pixel, in
         weight = next_weight;
         if (ao_bent_normal) {
             vec2 directions = ao_load_directions(texel);
-            ao_openness seen_there = ao_unpack_openness(mix(real(0), directions.x, used), mix(real(0), directions.y, used));
-            openness = ao_add_openness(openness, seen_there, share);
+            ao_openness seen = ao_unpack_openness(mix(real(0), directions.x, used), mix(real(0), directions.y, used));
+            openness = ao_add_openness(openness, seen, share);
         }
     }
     ao_denoise_sum sum = { hidden, mix(real(0), weight, foreground), mix(real(0), d, foreground), openness, normal };
@@ -139,7 +155,7 @@ AO_PASS vec2 ao_denoise_rows_pass(ao_denoise_constants c, ivec2 texel)
     if (ao_coarse) {
         pixel = ivec2(texel.x, texel.y * integer(2));
     }
-    ao_denoise_sum sum = ao_denoise_window(c, pixel, 1, 0);
+    ao_denoise_sum sum = ao_denoise_window(c, pixel, true);
     AO_PRECISE real weight = sum.weight / (real(ao_packed_weight) * real(2 * ao_filter_radius + 1));
     real both = ao_pack_visibility(ao_denoised(sum), weight);
     return vec2(mix(real(-1), both, sum.weight > real(0)), sum.depth);
@@ -162,7 +178,7 @@ AO_PASS vec4 ao_denoise_rows_bent_pass(ao_denoise_constants c, ivec2 texel)
     if (ao_coarse) {
         pixel = ivec2(texel.x, texel.y * integer(2));
     }
-    ao_denoise_sum sum = ao_denoise_window(c, pixel, 1, 0);
+    ao_denoise_sum sum = ao_denoise_window(c, pixel, true);
     mask foreground = sum.weight > real(0);
     AO_PRECISE real weight = sum.weight / (real(ao_packed_weight) * real(2 * ao_filter_radius + 1));
     real both = ao_pack_visibility(ao_denoised(sum), weight);
@@ -175,7 +191,7 @@ AO_PASS vec4 ao_denoise_rows_bent_pass(ao_denoise_constants c, ivec2 texel)
 // Mean visibility and bent normal, as ao_bitmask_bent_pass returns them; the normal itself where no estimate counts.
 AO_PASS vec4 ao_denoise_columns_bent_pass(ao_denoise_constants c, ivec2 pixel)
 {
-    ao_denoise_sum sum = ao_denoise_window(c, pixel, 0, 1);
+    ao_denoise_sum sum = ao_denoise_window(c, pixel, false);
     real visibility = ao_denoised(sum);
     vec3 bent = ao_bent_normal_of(ao_denoised_openness(sum), visibility, sum.normal);
     return ao_bent_texel(visibility, ao_select(vec3(real(0), real(0), real(1)), bent, sum.depth > real(0)));
@@ -183,5 +199,5 @@ AO_PASS vec4 ao_denoise_columns_bent_pass(ao_denoise_constants c, ivec2 pixel)
 
 AO_PASS real ao_denoise_columns_pass(ao_denoise_constants c, ivec2 pixel)
 {
-    return ao_denoised(ao_denoise_window(c, pixel, 0, 1));
+    return ao_denoised(ao_denoise_window(c, pixel, false));
 }
