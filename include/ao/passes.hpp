@@ -78,6 +78,7 @@ struct bitmask_pass {
     bool ao_rotate_normals = false;
     bool ao_parallel = false;
     bool ao_mark_background = false;
+    bool ao_coarse = false;
 
     constexpr real ao_load_depth(ivec2 pixel)
     {
@@ -104,7 +105,7 @@ struct bitmask_pass {
 #include "ao/shared/bitmask_pass.h"
 };
 
-// Resources: vec2 packed(ivec2), vec4 normal(ivec2).
+// Resources: vec2 packed(ivec2), real depth(ivec2), vec4 normal(ivec2).
 template <class Real, class Resources>
 struct denoise_pass {
 #include "ao/detail/scope.inc"
@@ -115,6 +116,7 @@ struct denoise_pass {
     int ao_normal_source = 0;
     bool ao_rotate_normals = false;
     bool ao_parallel = false;
+    bool ao_coarse = false;
 
     constexpr vec2 ao_load_packed(ivec2 pixel)
     {
@@ -122,7 +124,7 @@ struct denoise_pass {
     }
     constexpr real ao_load_depth(ivec2 pixel)
     {
-        return resources.packed(pixel).y;
+        return resources.depth(pixel);
     }
     constexpr vec4 ao_load_normal(ivec2 pixel)
     {

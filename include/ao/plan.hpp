@@ -70,6 +70,7 @@ struct pass_options {
     bool mark_background = false;
     int filter_radius = 0;
     int slice_count = 1;
+    bool coarse = false;
 
     friend constexpr bool operator==(const pass_options&, const pass_options&) = default;
 };
@@ -97,7 +98,8 @@ struct pass {
     pass_type type{};
     pass_options options;
     // linearize: depth. occlusion, bitmask: eye depth, normal (or none), rotation. filter_rows: visibility. filter_columns: row
-    // sums. denoise_rows, denoise_columns: packed visibility and eye depth (packed_visibility.h), normal (or none).
+    // sums. denoise_rows, denoise_columns: packed visibility and eye depth (packed_visibility.h), normal (or none); where coarse,
+    // eye depth.
     std::array<image_id, 3> inputs{ image_id::none, image_id::none, image_id::none };
     image_id output = image_id::none;
     // The shared constants struct of the pass, as bytes.
@@ -105,10 +107,12 @@ struct pass {
     std::size_t constants_size = 0;
 };
 
-// A picture of the program's own, of the size of the output.
+// A picture of the program's own.
 struct transient_image {
     image_id id{};
     pixel_format format{};
+    int width = 0; // texels
+    int height = 0;
 };
 
 struct plan {
@@ -274,9 +278,10 @@ constexpr std::optional<error> update(plan& p, const camera& view)
             c.normal_to_view = std::bit_cast<decltype(c.normal_to_view)>(detail::rows_of(view.normal_to_view));
             c.width = static_cast<float>(f.width);
             c.height = static_cast<float>(f.height);
-            // A neighbour counts up to a twenty-fifth of the radius or a five-hundredth of the depth from the tangent plane.
+            // A neighbour counts up to a twenty-fifth of the radius or, by ao_plane_depth, a five-hundredth of the depth from the
+            // tangent plane.
             c.plane_constant = 1.6e-3F * p.settings.radius * p.settings.radius;
-            c.plane_depth = 4e-6F;
+            c.background = background;
             detail::set_constants(each, c);
             break;
         }
@@ -312,7 +317,7 @@ constexpr result<plan> make_plan(const settings& s, const facts& f, const camera
         linearize.inputs = { image_id::depth, image_id::none, image_id::none };
         linearize.output = depth = image_id::linear_depth;
         p.passes.push_back(linearize);
-        p.transients.push_back({ image_id::linear_depth, pixel_format::r32f });
+        p.transients.push_back({ image_id::linear_depth, pixel_format::r32f, f.width, f.height });
     }
 
     const bool filtered = s.filter > 1;
@@ -326,13 +331,17 @@ constexpr result<plan> make_plan(const settings& s, const facts& f, const camera
     occlusion.options.parallel = f.parallel;
     occlusion.options.limit_thickness = !sliced && s.thickness <= std::numeric_limits<float>::max();
     occlusion.options.mark_background = filtered;
+    occlusion.options.coarse = s.resolution == resolution::half;
     occlusion.inputs = { depth, f.normals == normal_source::from_depth ? image_id::none : image_id::normal, image_id::rotation };
     occlusion.output = filtered ? image_id::raw_visibility : image_id::visibility;
     p.passes.push_back(occlusion);
 
     if (filtered) {
-        p.transients.push_back({ image_id::raw_visibility, sliced ? pixel_format::rg32f : pixel_format::r32f });
-        p.transients.push_back({ image_id::row_sums, pixel_format::rg32f });
+        const bool coarse = occlusion.options.coarse;
+        const int rows_written = coarse ? (f.height + 1) / 2 : f.height;
+        p.transients.push_back({ image_id::raw_visibility, sliced ? pixel_format::rg32f : pixel_format::r32f,
+                                 coarse ? (f.width + 1) / 2 : f.width, rows_written });
+        p.transients.push_back({ image_id::row_sums, pixel_format::rg32f, f.width, rows_written });
         pass rows;
         rows.type = sliced ? pass_type::denoise_rows : pass_type::filter_rows;
         rows.options.filter_radius = s.filter / 2;
@@ -340,8 +349,10 @@ constexpr result<plan> make_plan(const settings& s, const facts& f, const camera
             rows.options.normal_source = occlusion.options.normal_source;
             rows.options.rotate_normals = occlusion.options.rotate_normals;
             rows.options.parallel = f.parallel;
+            rows.options.coarse = coarse;
         }
-        rows.inputs = { image_id::raw_visibility, sliced ? occlusion.inputs[1] : image_id::none, image_id::none };
+        rows.inputs = { image_id::raw_visibility, sliced ? occlusion.inputs[1] : image_id::none,
+                        coarse ? depth : image_id::none };
         rows.output = image_id::row_sums;
         p.passes.push_back(rows);
         pass columns = rows;
@@ -354,6 +365,22 @@ constexpr result<plan> make_plan(const settings& s, const facts& f, const camera
         return *wrong;
     }
     return p;
+}
+
+struct extent {
+    int width = 0; // texels
+    int height = 0;
+};
+
+// Of a picture that a pass of the plan writes.
+constexpr extent extent_of(const plan& p, image_id id)
+{
+    for (const transient_image& each : p.transients) {
+        if (each.id == id) {
+            return { each.width, each.height };
+        }
+    }
+    return { p.facts.width, p.facts.height };
 }
 
 // True where both plans run the same passes over the same pictures with the same tables, so that a program prepared for one

@@ -20,6 +20,12 @@ inline constexpr int max_taps = 1024;
 inline constexpr int max_slices = 16;
 inline constexpr int max_filter = 31;
 
+// How many estimates there are.
+enum class resolution {
+    full, // one a pixel
+    half, // of bitmask, one per 2x2 pixels: at the even pixels of even rows; the denoiser finds the others from depth and normals
+};
+
 struct settings {
     ao::method method = ao::method::hemisphere;
     // 1 ... max_taps; cost is linear in it. Of bitmask: of all slices together, a multiple of them.
@@ -32,7 +38,8 @@ struct settings {
     // How far behind a surface an offset still counts as occluded, in radii, > 0. Infinite as printed in paper 1; the finite
     // default keeps a foreground object from darkening what lies far behind it. Of bitmask: of whatever a depth shows, best at 1.
     float thickness = 2.0F;
-    int filter = 5;         // pixels a side, odd, 1 (no filter) ... max_filter
+    int filter = 5; // pixels a side, odd, 1 (no filter) ... max_filter
+    ao::resolution resolution = resolution::full;
     std::uint32_t seed = 1; // of the random kernels and the rotations
 };
 
@@ -64,17 +71,27 @@ constexpr std::optional<error> validate(const settings& s)
     if (s.filter < 1 || s.filter > max_filter || s.filter % 2 == 0) {
         return error(errc::invalid_settings, "filter must be odd, 1 to 31");
     }
+    if (s.resolution != resolution::full && s.resolution != resolution::half) {
+        return error(errc::invalid_settings, "unknown resolution");
+    }
+    if (s.resolution == resolution::half && s.method != method::bitmask) {
+        return error(errc::invalid_settings, "half resolution is for bitmask only");
+    }
+    if (s.resolution == resolution::half && s.filter < 3) {
+        return error(errc::invalid_settings, "half resolution needs a filter of 3 or more");
+    }
     return std::nullopt;
 }
 
 enum class preset {
-    low,    // 4 taps of 1 slice
-    medium, // 8 of 1
-    high,   // 18 of 2
-    ultra,  // 36 of 3
+    low,    // 4 taps of 1 slice, half resolution
+    medium, // 8 of 1, half resolution
+    high,   // 18 of 2, half resolution
+    ultra,  // 36 of 3, full resolution
 };
 
-// The settings to take where there is no reason for others: bitmask, few slices a pixel, denoised over 5x5 pixels.
+// The settings to take where there is no reason for others: bitmask, few slices an estimate, denoised over 9x9 pixels at half
+// resolution and 7x7 at full.
 constexpr settings settings_of(preset chosen, float radius = 1.0F)
 {
     constexpr int taps[] = { 4, 8, 18, 36 };
@@ -86,6 +103,8 @@ constexpr settings settings_of(preset chosen, float radius = 1.0F)
     s.radius = radius;
     s.bias = 0;
     s.thickness = 1;
+    s.filter = chosen == preset::ultra ? 7 : 9;
+    s.resolution = chosen == preset::ultra ? resolution::full : resolution::half;
     return s;
 }
 

@@ -172,7 +172,8 @@ constexpr temporal_settings temporal_settings_of(const settings& still)
     s.radius = still.radius;
     s.bias = still.bias;
     s.thickness = still.thickness;
-    s.filter = still.filter;
+    // Every pixel is estimated in every frame: the wide windows of half resolution have nothing to fill.
+    s.filter = still.resolution == resolution::half ? s.filter : still.filter;
     s.seed = still.seed;
     s.slice_taps = still.taps / still.slices;
     s.period = 512 * s.slice_taps;

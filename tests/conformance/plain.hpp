@@ -48,13 +48,17 @@ struct resources {
     const program* tables;
     bool position;
     fault planted;
+    bool packed = false; // the first input is packed visibility and eye depth
+    bool coarse = false; // the third input is eye depth
 
     glm::vec4 fetch(std::size_t input, glm::ivec2 p) const { return inputs[input]->at(p.x, p.y); }
     float stored_depth(glm::ivec2 p) const { return position ? fetch(0, p).z : fetch(0, p).x; }
     float depth(glm::ivec2 p) const
     {
-        const int beside = planted == fault::texel_beside ? std::min(p.x + 1, inputs[0]->width - 1) : p.x;
-        return fetch(0, { beside, p.y }).x;
+        const std::size_t input = packed && coarse ? 2 : 0;
+        const int beside = planted == fault::texel_beside ? std::min(p.x + 1, inputs[input]->width - 1) : p.x;
+        const glm::vec4 texel = fetch(input, { beside, p.y });
+        return packed && !coarse ? texel.y : texel.x;
     }
     glm::vec4 normal(glm::ivec2 p) const { return fetch(1, p); }
     glm::vec2 rotation(glm::ivec2 p) const
@@ -85,8 +89,8 @@ public:
         }
         for (const ao::transient_image& each : p.transients) {
             plain::image& picture = made.pictures[static_cast<std::size_t>(each.id)];
-            picture = { p.facts.width, p.facts.height, {} };
-            picture.texels.resize(static_cast<std::size_t>(p.facts.width) * static_cast<std::size_t>(p.facts.height));
+            picture = { each.width, each.height, {} };
+            picture.texels.resize(static_cast<std::size_t>(each.width) * static_cast<std::size_t>(each.height));
         }
         return made;
     }
@@ -101,10 +105,12 @@ public:
                                 find(prepared, bound, each.inputs[2]) },
                               &prepared,
                               p.facts.depth == ao::depth_source::position,
-                              planted };
+                              planted,
+                              each.type == ao::pass_type::denoise_rows || each.type == ao::pass_type::denoise_columns,
+                              o.coarse };
         plain::image& out = *find(prepared, bound, each.output);
-        for (int y = 0; y < p.facts.height; ++y) {
-            for (int x = 0; x < p.facts.width; ++x) {
+        for (int y = 0; y < out.height; ++y) {
+            for (int x = 0; x < out.width; ++x) {
                 out.at(x, y) = run(each, o, read, { x, y });
             }
         }
@@ -144,7 +150,7 @@ private:
         if (each.type == ao::pass_type::bitmask) {
             const int taps = planted == fault::last_tap_lost ? o.tap_count - 2 : o.tap_count;
             ao::bitmask_pass<float, resources> body{
-                read, taps, o.slice_count, o.normal_source, o.rotate_normals, o.parallel, o.mark_background
+                read, taps, o.slice_count, o.normal_source, o.rotate_normals, o.parallel, o.mark_background, o.coarse
             };
             auto c = ao::constants_of<ao::occlusion_constants>(each);
             c.bias = planted == fault::bias_ignored ? 0.0F : c.bias;
@@ -156,7 +162,8 @@ private:
             return { body.ao_bitmask_pass(constants, pixel).visibility, 0, 0, 0 };
         }
         if (each.type == ao::pass_type::denoise_rows || each.type == ao::pass_type::denoise_columns) {
-            ao::denoise_pass<float, resources> body{ read, o.filter_radius, o.normal_source, o.rotate_normals, o.parallel };
+            ao::denoise_pass<float, resources> body{ read,       o.filter_radius, o.normal_source, o.rotate_normals,
+                                                     o.parallel, o.coarse };
             auto c = ao::constants_of<ao::denoise_constants>(each);
             c.width -= planted == fault::border_short ? 1.0F : 0.0F;
             const auto constants = std::bit_cast<decltype(body)::ao_denoise_constants>(c);

@@ -59,6 +59,11 @@ const std::vector<change> changes{
     { "kernel box", [](frame_input& in) { in.settings.method = method::box; } },
     { "kernel halton", [](frame_input& in) { in.settings.method = method::halton; } },
     { "bitmask", [](frame_input& in) { in.settings.method = method::bitmask; } },
+    { "half resolution",
+      [](frame_input& in) {
+          in.settings.method = method::bitmask;
+          in.settings.resolution = resolution::half;
+      } },
     { "taps", [](frame_input& in) { in.settings.taps = 33; } },
     { "radius", [](frame_input& in) { in.settings.radius = 0.85F; } },
     { "bias", [](frame_input& in) { in.settings.bias = 0.03F; } },

@@ -25,6 +25,7 @@ ao::settings spatial(int taps, int slices)
     s.taps = taps;
     s.slices = slices;
     s.filter = 1;
+    s.resolution = ao::resolution::full;
     return s;
 }
 

@@ -64,7 +64,7 @@ ao::plan with_linearize(const ao::plan& p)
                 input = image_id::linear_depth;
         full.passes.push_back(each);
     }
-    full.transients.push_back({ image_id::linear_depth, pixel_format::r32f });
+    full.transients.push_back({ image_id::linear_depth, pixel_format::r32f, p.facts.width, p.facts.height });
     return full;
 }
 
@@ -89,8 +89,8 @@ ao::plan with_filter(const ao::plan& p)
     columns.output = image_id::visibility;
     full.passes.push_back(rows);
     full.passes.push_back(columns);
-    full.transients.push_back({ image_id::raw_visibility, pixel_format::r32f });
-    full.transients.push_back({ image_id::row_sums, pixel_format::rg32f });
+    full.transients.push_back({ image_id::raw_visibility, pixel_format::r32f, p.facts.width, p.facts.height });
+    full.transients.push_back({ image_id::row_sums, pixel_format::rg32f, p.facts.width, p.facts.height });
     return full;
 }
 

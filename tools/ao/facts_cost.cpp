@@ -202,6 +202,7 @@ options_of_pass options_of(const ao::plan& p, const ao::pass& each)
              { "ao_mark_background", o.mark_background },
              { "ao_filter_radius", number(o.filter_radius) },
              { "ao_slice_count", number(o.slice_count) },
+             { "ao_coarse", o.coarse },
              { "depth_in_z", p.facts.depth == depth_source::position } };
 }
 
@@ -264,6 +265,13 @@ std::span<const std::uint32_t> shader_of(temporal_pass_type type)
     return {};
 }
 
+// Texels of a picture per pixel.
+double share_of(const ao::plan& p, image_id id)
+{
+    const ao::extent size = extent_of(p, id);
+    return static_cast<double>(size.width) * size.height / (static_cast<double>(p.facts.width) * p.facts.height);
+}
+
 double bytes_of(const ao::plan& p, image_id id)
 {
     switch (id) {
@@ -279,7 +287,7 @@ double bytes_of(const ao::plan& p, image_id id)
     default:
         for (const transient_image& each : p.transients)
             if (each.id == id)
-                return bytes_per_pixel(each.format);
+                return bytes_per_pixel(each.format) * share_of(p, id);
         return 0;
     }
 }
@@ -322,12 +330,15 @@ std::optional<pixel_cost> cost_of(const ao::plan& p, const ao::pass& each)
     const auto options = options_of(p, each);
     const auto [at, fresh] = known.try_emplace({ each.type, options });
     if (fresh) {
-        const bool filters = each.options.filter_radius > 0;
-        at->second = cost_of_module(shader_of(each), options,
-                                    filters ? 2 * each.options.filter_radius + 1 : std::max(each.options.tap_count, 1));
+        const int radius = each.options.filter_radius;
+        const int window = each.options.coarse ? radius + 1 : 2 * radius + 1;
+        at->second = cost_of_module(shader_of(each), options, radius > 0 ? window : std::max(each.options.tap_count, 1));
     }
+    const double share = share_of(p, each.output);
     pixel_cost cost = at->second;
     cost.passes = 1;
+    cost.fetches *= share;
+    cost.operations *= share;
     cost.bytes = bytes_of(p, each.output);
     for (const image_id id : each.inputs)
         cost.bytes += bytes_of(p, id);

@@ -120,11 +120,21 @@ ao::settings parse_settings(const render_arguments& a)
         if (!a.method.empty() && s.method != method::bitmask)
             throw error("--preset: of --method bitmask");
         s = settings_of(chosen);
+        if (a.temporal.wanted) { // every pixel is estimated in every frame
+            s.resolution = resolution::full;
+            s.filter = ao::settings{}.filter;
+        }
     }
     s.taps = a.taps.value_or(s.taps);
     s.slices = a.slices.value_or(s.slices);
     if (a.slices && s.method != method::bitmask)
         throw error("--slices: of --method bitmask");
+    static constexpr std::array<std::pair<std::string_view, ao::resolution>, 2> resolutions{ {
+        { "full", resolution::full },
+        { "half", resolution::half },
+    } };
+    if (!a.resolution.empty())
+        s.resolution = choose("--resolution", a.resolution, resolutions);
     s.radius = static_cast<float>(a.radius);
     s.bias = static_cast<float>(a.bias.value_or(static_cast<double>(s.bias)));
     s.filter = a.filter.value_or(s.filter);
@@ -153,6 +163,7 @@ void add_render_options(CLI::App& command, render_arguments& a)
     command.add_option("--preset", a.preset, "of bitmask: low|medium|high|ultra, which sets what is not given; high without it");
     command.add_option("--taps", a.taps, "per pixel, 1 to 1024");
     command.add_option("--slices", a.slices, "of bitmask, 1 to 16: taps are of all slices together");
+    command.add_option("--resolution", a.resolution, "of bitmask: full|half, one estimate a pixel or per 2x2 pixels");
     command.add_option("--radius", a.radius, "scene units");
     command.add_option("--bias", a.bias, "scene units");
     command.add_option("--thickness", a.thickness, "in radii, or 'infinite'");

@@ -55,7 +55,7 @@ struct render_options {
 struct render_arguments {
     std::string scene, backend = "all", device, route = "all", lanes = "auto", method, preset, depth;
     std::string normals = "rgba16f", size = "1280x720", eye, projection = "perspective", out, json, thickness;
-    std::string gbuffer = "raster", blend, lights;
+    std::string gbuffer = "raster", blend, lights, resolution;
     std::optional<int> taps, slices, filter;
     std::optional<double> bias;
     int frames = 5;

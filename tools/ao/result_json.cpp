@@ -108,6 +108,7 @@ std::string json_of(const render_result& r)
     j["settings"] = { { "method", method_text(o.settings.method) },
                       { "taps", o.settings.taps },
                       { "slices", o.settings.slices },
+                      { "resolution", o.settings.resolution == resolution::half ? "half" : "full" },
                       { "radius", o.settings.radius },
                       { "bias", o.settings.bias },
                       { "thickness", number_or_null(static_cast<double>(o.settings.thickness)) },

@@ -23,7 +23,7 @@ void add_temporal_options(CLI::App& command, temporal_arguments& a)
     add("--invalidation", a.invalidation, "of --temporal: none|smooth|clamp, where a neighbourhood changed");
     add("--smoothness", a.smoothness, "of --temporal: how fast smooth invalidation forgets");
     // These are the other effect's, or read its result.
-    for (const char* name : { "--method", "--taps", "--slices", "--shade" })
+    for (const char* name : { "--method", "--taps", "--slices", "--resolution", "--shade" })
         temporal->excludes(command.get_option(name));
 }
 

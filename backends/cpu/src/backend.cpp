@@ -55,8 +55,8 @@ result<backend> backend::create(const options& o)
 result<program> backend::prepare(const plan& p)
 {
     const int pitch = detail::padded_pitch(p.facts.width);
-    const std::size_t pixels = static_cast<std::size_t>(pitch) * static_cast<std::size_t>(p.facts.height);
-    if (pixels > 0x7fffffffU) {
+    const auto rows_of = [&](int height) { return static_cast<std::size_t>(pitch) * static_cast<std::size_t>(height); };
+    if (rows_of(p.facts.height) > 0x7fffffffU) {
         return error(errc::invalid_size, "more than 2^31 - 1 pixels");
     }
     program made;
@@ -69,7 +69,7 @@ result<program> backend::prepare(const plan& p)
         detail::aligned_floats& target = each.id == image_id::linear_depth     ? made.linear_depth_
                                          : each.id == image_id::raw_visibility ? made.raw_visibility_
                                                                                : made.row_sums_;
-        target = detail::allocate(each.format == pixel_format::rg32f ? 2 * pixels : pixels);
+        target = detail::allocate((each.format == pixel_format::rg32f ? 2 : 1) * rows_of(each.height));
         complete = complete && target;
     }
     if (!complete) {
@@ -104,7 +104,6 @@ result<binding> backend::bind(program&, const plan& p, const host_images<image_v
 void backend::record_pass(commands, program& prepared, binding& bound, const plan& p, std::size_t index)
 {
     const pass& each = p.passes[index];
-    const std::size_t pixels = static_cast<std::size_t>(prepared.pitch_) * static_cast<std::size_t>(p.facts.height);
     const auto find = [&](image_id id) -> detail::plane {
         switch (id) {
         case image_id::depth:
@@ -127,20 +126,23 @@ void backend::record_pass(commands, program& prepared, binding& bound, const pla
     detail::pass_arguments a;
     a.options = each.options;
     std::memcpy(a.constants, each.constants.data(), each.constants_size);
-    a.width = p.facts.width;
-    a.height = p.facts.height;
+    const extent size = extent_of(p, each.output);
+    a.width = size.width;
+    a.height = size.height;
     a.source = find(each.inputs[0]);
     a.normal = find(each.inputs[1]);
+    a.depth = find(each.inputs[2]);
     a.target = find(each.output);
     // A picture of two components keeps the second one behind the first.
     const auto second = [&](image_id id) -> detail::plane {
-        const detail::aligned_floats* of = nullptr;
         for (const transient_image& transient : p.transients) {
             if (transient.id == id && transient.format == pixel_format::rg32f) {
-                of = id == image_id::row_sums ? &prepared.row_sums_ : &prepared.raw_visibility_;
+                const detail::aligned_floats& of = id == image_id::row_sums ? prepared.row_sums_ : prepared.raw_visibility_;
+                const auto rows = static_cast<std::size_t>(transient.height);
+                return detail::plane_of(of, prepared.pitch_, static_cast<std::size_t>(prepared.pitch_) * rows);
             }
         }
-        return of != nullptr ? detail::plane_of(*of, prepared.pitch_, pixels) : detail::plane{};
+        return detail::plane{};
     };
     a.source_second = second(each.inputs[0]);
     a.target_second = second(each.output);
@@ -161,9 +163,9 @@ void backend::record_pass(commands, program& prepared, binding& bound, const pla
     case pass_type::bitmask:
         return machine_->run(kernels.bitmask[each.options.parallel ? 1 : 0], a);
     case pass_type::denoise_rows:
-        return machine_->run(kernels.denoise_rows, a);
+        return machine_->run(kernels.denoise_rows[each.options.coarse ? 1 : 0], a);
     case pass_type::denoise_columns:
-        return machine_->run(kernels.denoise_columns, a);
+        return machine_->run(kernels.denoise_columns[each.options.coarse ? 1 : 0], a);
     }
 }
 

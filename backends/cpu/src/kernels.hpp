@@ -20,12 +20,13 @@ struct plane {
 struct pass_arguments {
     pass_options options;
     float constants[32] = {};
-    int width = 0; // pixels of the picture
+    int width = 0; // texels of the target
     int height = 0;
     plane source;        // depth, visibility or sums
     plane source_second; // component of a source of two
     plane target_second;
     plane normal;
+    plane depth; // eye depth, beside packed visibility of half resolution
     plane target;
     const float* kernel = nullptr;   // x, y, z, 0 per tap
     const float* rotation = nullptr; // all x of the tile, then all y
@@ -80,9 +81,9 @@ struct kernel_table {
     kernel occlusion[2][2]; // [parallel][limit_thickness]
     kernel filter_rows;
     kernel filter_columns;
-    kernel bitmask[2]; // [parallel]
-    kernel denoise_rows;
-    kernel denoise_columns;
+    kernel bitmask[2];      // [parallel]
+    kernel denoise_rows[2]; // [coarse]
+    kernel denoise_columns[2];
     const temporal_kernel_table& temporal;
 };
 

@@ -145,6 +145,7 @@ struct pass_kernels {
         pass.ao_rotate_normals = a.options.rotate_normals;
         pass.ao_parallel = Parallel;
         pass.ao_mark_background = a.options.mark_background;
+        pass.ao_coarse = a.options.coarse;
         pass.resources.eye_depth = reader<Real>(a.source);
         pass.resources.normals = reader<Real>(a.normal);
         pass.resources.rotation_x = rotation(a, 0);
@@ -162,6 +163,7 @@ struct pass_kernels {
         });
     }
 
+    template <bool Coarse>
     static denoise_pass<Real, denoise_resources<Real>> denoise(const pass_arguments& a)
     {
         denoise_pass<Real, denoise_resources<Real>> pass{};
@@ -169,15 +171,18 @@ struct pass_kernels {
         pass.ao_normal_source = a.options.normal_source;
         pass.ao_rotate_normals = a.options.rotate_normals;
         pass.ao_parallel = a.options.parallel;
+        pass.ao_coarse = Coarse;
         pass.resources.visibility = reader<Real>(a.source);
-        pass.resources.eye_depth = reader<Real>(a.source_second);
+        pass.resources.depths = reader<Real>(a.source_second);
+        pass.resources.eye_depth = reader<Real>(Coarse ? a.depth : a.source_second);
         pass.resources.normals = reader<Real>(a.normal);
         return pass;
     }
 
+    template <bool Coarse>
     AO_CPU_KERNEL static void denoise_rows(const pass_arguments& a, const tile& t)
     {
-        auto pass = denoise(a);
+        auto pass = denoise<Coarse>(a);
         const auto c = constants<typename decltype(pass)::ao_denoise_constants>(a);
         for_blocks(t, [&](ivec2 pixel, int x, int y, int count) {
             const vec2 packed = pass.ao_denoise_rows_pass(c, pixel);
@@ -186,9 +191,10 @@ struct pass_kernels {
         });
     }
 
+    template <bool Coarse>
     AO_CPU_KERNEL static void denoise_columns(const pass_arguments& a, const tile& t)
     {
-        auto pass = denoise(a);
+        auto pass = denoise<Coarse>(a);
         const auto c = constants<typename decltype(pass)::ao_denoise_constants>(a);
         for_blocks(t, [&](ivec2 pixel, int x, int y, int count) {
             store(a.target, x, y, pass.ao_denoise_columns_pass(c, pixel), count);
@@ -203,8 +209,8 @@ struct pass_kernels {
             filter_rows,
             filter_columns,
             { bitmask<false>, bitmask<true> },
-            denoise_rows,
-            denoise_columns,
+            { denoise_rows<false>, denoise_rows<true> },
+            { denoise_columns<false>, denoise_columns<true> },
             temporal,
         };
     }

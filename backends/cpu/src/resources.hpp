@@ -117,10 +117,12 @@ struct denoise_resources {
     using vec2 = typename math<Real>::vec2;
     using vec4 = typename math<Real>::vec4;
     reader<Real> visibility;
-    reader<Real> eye_depth;
+    reader<Real> depths;    // beside the visibilities
+    reader<Real> eye_depth; // of every pixel
     reader<Real> normals;
 
-    vec2 packed(ivec2 pixel) const { return vec2(visibility.loaded(pixel), eye_depth.loaded(pixel)); }
+    vec2 packed(ivec2 texel) const { return vec2(visibility.loaded(texel), depths.loaded(texel)); }
+    Real depth(ivec2 pixel) const { return eye_depth.loaded(pixel); }
     vec4 normal(ivec2 pixel) const { return normals.normal(pixel); }
 };
 

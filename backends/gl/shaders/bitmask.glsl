@@ -8,6 +8,7 @@ layout(constant_id = 3) const bool ao_rotate_normals = false;
 layout(constant_id = 4) const bool ao_parallel = false;
 layout(constant_id = 6) const bool ao_mark_background = false;
 layout(constant_id = 11) const int ao_slice_count = 1;
+layout(constant_id = 12) const bool ao_coarse = false;
 
 #include "occlusion_resources.glsl"
 #include "ao/shared/normal_pass.h"

@@ -69,7 +69,7 @@ result<program> backend::prepare(const plan& p)
     }
     auto state = std::make_unique<program_state>();
     for (const transient_image& each : p.transients) {
-        state->images[index_of(each.id)] = make_texture(gl, internal_format(each.format), p.facts.width, p.facts.height);
+        state->images[index_of(each.id)] = make_texture(gl, internal_format(each.format), each.width, each.height);
         state->formats[index_of(each.id)] = internal_format(each.format);
     }
     state->formats[index_of(image_id::visibility)] = internal_format(p.facts.output_format);

@@ -45,19 +45,19 @@ void dispatch(const functions& gl, const options& chosen, const program_state& p
     const auto groups = [](int pixels, unsigned size) { return (static_cast<GLuint>(pixels) + size - 1) / size; };
     // Stores wait for whoever still reads the picture, and fetches for the stores.
     gl.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-    gl.DispatchCompute(groups(p.facts.width, chosen.group_width), groups(p.facts.height, chosen.group_height), 1);
+    const extent size = extent_of(p, each.output);
+    gl.DispatchCompute(groups(size.width, chosen.group_width), groups(size.height, chosen.group_height), 1);
     const GLbitfield handed_over =
         GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT;
     gl.MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | (each.output == image_id::visibility ? handed_over : 0U));
 }
 
-void draw(const functions& gl, const program_state& program, const linked_pass& linked, const binding_state& bound, const plan& p)
+void draw(const functions& gl, const program_state& program, const linked_pass& linked, const binding_state& bound, extent size)
 {
     const bool own = linked.framebuffer.name() != 0;
     gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, own ? linked.framebuffer.name() : bound.framebuffer.name());
     gl.BindVertexArray(program.vertex_array.name());
-    const std::array<GLfloat, 4> viewport{ 0.0F, 0.0F, static_cast<GLfloat>(p.facts.width),
-                                           static_cast<GLfloat>(p.facts.height) };
+    const std::array<GLfloat, 4> viewport{ 0.0F, 0.0F, static_cast<GLfloat>(size.width), static_cast<GLfloat>(size.height) };
     gl.ViewportIndexedfv(0, viewport.data());
     gl.ColorMaski(0, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     gl.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
@@ -97,7 +97,7 @@ void backend::record_pass(commands, program& prepared, binding& bound, const pla
         dispatch(gl, options_, state, *bound.state_, p, each);
     }
     else {
-        draw(gl, state, linked, *bound.state_, p);
+        draw(gl, state, linked, *bound.state_, extent_of(p, each.output));
     }
 }
 

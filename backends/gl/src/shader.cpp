@@ -15,14 +15,14 @@ namespace {
 // constant_id of the shaders and their values; a boolean is 0 or 1.
 constexpr std::size_t pass_constant_count = 9;
 constexpr std::size_t group_constant_count = 2; // compute only, behind those of the passes
-constexpr std::size_t slice_constant_count = 1;
+constexpr std::size_t slice_constant_count = 2;
 using constant_values = std::array<GLuint, pass_constant_count + group_constant_count + slice_constant_count>;
 
 constexpr std::array<GLuint, 4> linearize_ids{ 0, 8, 9, 10 };
 constexpr std::array<GLuint, 8> occlusion_ids{ 1, 2, 3, 4, 5, 6, 9, 10 };
 constexpr std::array<GLuint, 3> filter_ids{ 7, 9, 10 };
-constexpr std::array<GLuint, 8> bitmask_ids{ 1, 2, 3, 4, 6, 11, 9, 10 };
-constexpr std::array<GLuint, 6> denoise_ids{ 2, 3, 4, 7, 9, 10 };
+constexpr std::array<GLuint, 9> bitmask_ids{ 1, 2, 3, 4, 6, 11, 12, 9, 10 };
+constexpr std::array<GLuint, 7> denoise_ids{ 2, 3, 4, 7, 12, 9, 10 };
 
 source source_of(pass_type type, route by)
 {
@@ -76,7 +76,8 @@ result<object> link_pass(const functions& gl, const options& chosen, const pass&
                                   from_position,
                                   chosen.group_width,
                                   chosen.group_height,
-                                  static_cast<GLuint>(o.slice_count) };
+                                  static_cast<GLuint>(o.slice_count),
+                                  o.coarse };
     const bool compute = chosen.route == route::compute;
     const source from = source_of(p.type, chosen.route);
 

@@ -14,6 +14,7 @@ layout(constant_id = 6) const bool ao_mark_background = false;
 layout(constant_id = 7) const int ao_filter_radius = 0;
 layout(constant_id = 8) const bool depth_in_z = false; // positions
 layout(constant_id = 9) const int ao_slice_count = 1;
+layout(constant_id = 12) const bool ao_coarse = false;
 
 // The first of ao::pass::inputs. AO_DEPTH_IN_Y: it holds packed visibility and eye depth.
 // AO_STORED_SOURCE: it is the program's own picture of that format, read as a storage image.
@@ -35,8 +36,9 @@ real ao_load_stored_depth(ivec2 pixel)
     return depth_in_z ? texel.z : texel.x;
 }
 #ifdef AO_DEPTH_IN_Y
-vec2 ao_load_packed(ivec2 pixel) { return fetch_source(pixel).xy; }
-real ao_load_depth(ivec2 pixel) { return fetch_source(pixel).y; }
+layout(binding = 6) uniform texture2D depths; // of every pixel, where coarse
+vec2 ao_load_packed(ivec2 texel) { return fetch_source(texel).xy; }
+real ao_load_depth(ivec2 pixel) { return ao_coarse ? texelFetch(depths, pixel, 0).x : fetch_source(pixel).y; }
 #else
 real ao_load_depth(ivec2 pixel) { return fetch_source(pixel).x; }
 #endif

@@ -32,11 +32,13 @@ void write_set(const device& d, VkDescriptorSet set, const pass& each, const pre
     const VkDescriptorImageInfo first = picture_of(each.inputs[0], program, images);
     // The shader names a picture of normals even where the options take it out of use; any picture will do then.
     const VkDescriptorImageInfo second = each.inputs[1] == image_id::none ? first : picture_of(each.inputs[1], program, images);
+    const bool coarse = each.inputs[2] != image_id::none && each.inputs[2] != image_id::rotation;
+    const VkDescriptorImageInfo third = coarse ? picture_of(each.inputs[2], program, images) : first;
     const VkDescriptorImageInfo output = picture_of(each.output, program, images);
     const VkDescriptorBufferInfo kernel{ program.tables.own.handle.get(), 0, tables::kernel_bytes };
     const VkBufferView rotations = program.tables.rotations.get();
 
-    std::array<VkWriteDescriptorSet, 5> writes{};
+    std::array<VkWriteDescriptorSet, 6> writes{};
     for (std::uint32_t i = 0; i < writes.size(); ++i) {
         writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
         writes[i].dstSet = set;
@@ -54,6 +56,9 @@ void write_set(const device& d, VkDescriptorSet set, const pass& each, const pre
     writes[3].pTexelBufferView = &rotations;
     writes[4].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
     writes[4].pImageInfo = &output;
+    writes[5].dstBinding = 6;
+    writes[5].descriptorType = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
+    writes[5].pImageInfo = &third;
     d.call.UpdateDescriptorSets(d.host.device, static_cast<std::uint32_t>(writes.size()), writes.data(), 0, nullptr);
 }
 
@@ -89,7 +94,7 @@ result<binding> backend::bind(program& p, const plan& current, const host_images
     }
 
     const auto count = static_cast<std::uint32_t>(ready.executed.passes.size());
-    const std::array<VkDescriptorPoolSize, 4> sizes{ { { VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 2 * count },
+    const std::array<VkDescriptorPoolSize, 4> sizes{ { { VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 3 * count },
                                                        { VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, count },
                                                        { VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, count },
                                                        { VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 2 * count } } };

@@ -189,7 +189,7 @@ result<transients> make_transients(const device& d, const plan& p)
         info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
         info.imageType = VK_IMAGE_TYPE_2D;
         info.format = native_format(each.format);
-        info.extent = { static_cast<std::uint32_t>(p.facts.width), static_cast<std::uint32_t>(p.facts.height), 1 };
+        info.extent = { static_cast<std::uint32_t>(each.width), static_cast<std::uint32_t>(each.height), 1 };
         info.mipLevels = 1;
         info.arrayLayers = 1;
         info.samples = VK_SAMPLE_COUNT_1_BIT;

@@ -49,7 +49,7 @@ std::span<const std::uint32_t> shader_of(const device& d, const pass& each, cons
 result<owned<VkPipeline>> make_pipeline(const device& d, const plan& p, const pass& each, VkPipelineLayout layout)
 {
     const pass_options& o = each.options;
-    const std::array<specialisation_value, 12> values{ { { 0, o.affine },
+    const std::array<specialisation_value, 13> values{ { { 0, o.affine },
                                                          { 1, static_cast<std::uint32_t>(o.tap_count) },
                                                          { 2, static_cast<std::uint32_t>(o.normal_source) },
                                                          { 3, o.rotate_normals },
@@ -60,15 +60,17 @@ result<owned<VkPipeline>> make_pipeline(const device& d, const plan& p, const pa
                                                          { 8, p.facts.depth == depth_source::position },
                                                          { 9, static_cast<std::uint32_t>(o.slice_count) },
                                                          { 10, d.host.group.x },
-                                                         { 11, d.host.group.y } } };
+                                                         { 11, d.host.group.y },
+                                                         { 12, o.coarse } } };
     return make_compute_pipeline(d, shader_of(d, each, p), values, layout);
 }
 
 std::optional<error> make_layouts(const device& d, prepared& made)
 {
-    constexpr std::array<VkDescriptorType, 6> types{ VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,  VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
+    constexpr std::array<VkDescriptorType, 7> types{ VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,  VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
                                                      VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER,
-                                                     VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,  VK_DESCRIPTOR_TYPE_STORAGE_IMAGE };
+                                                     VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,  VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
+                                                     VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE };
     std::array<VkDescriptorSetLayoutBinding, types.size()> bindings{};
     for (std::uint32_t i = 0; i < bindings.size(); ++i) {
         bindings[i] = { i, types[i], 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr };
@@ -115,10 +117,10 @@ plan executed_plan(const device& d, const plan& p)
     copy.output = image_id::linear_depth;
     ao::detail::set_constants(copy, copying_constants());
     executed.passes.push_back(copy);
-    executed.transients.push_back({ image_id::linear_depth, pixel_format::r32f });
+    executed.transients.push_back({ image_id::linear_depth, pixel_format::r32f, p.facts.width, p.facts.height });
     for (pass each : p.passes) {
-        if (each.inputs[0] == image_id::depth) {
-            each.inputs[0] = image_id::linear_depth;
+        for (image_id& input : each.inputs) {
+            input = input == image_id::depth ? image_id::linear_depth : input;
         }
         executed.passes.push_back(each);
     }

@@ -48,8 +48,9 @@ void dispatch(const device& d, VkCommandBuffer commands, const prepared& program
     d.call.CmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, static_cast<std::uint32_t>(each.constants_size),
                             each.constants.data());
     const group_size group = d.host.group;
-    const auto width = static_cast<std::uint32_t>(program.given.facts.width);
-    const auto height = static_cast<std::uint32_t>(program.given.facts.height);
+    const extent size = extent_of(program.executed, each.output);
+    const auto width = static_cast<std::uint32_t>(size.width);
+    const auto height = static_cast<std::uint32_t>(size.height);
     d.call.CmdDispatch(commands, (width + group.x - 1) / group.x, (height + group.y - 1) / group.y, 1);
 }
 

@@ -5,6 +5,7 @@
 #include "ao/conformance/pictures.hpp"
 #include "ao/plan.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -78,7 +79,7 @@ enum factor : std::size_t {
     of_background,
     factor_count,
 };
-inline constexpr std::array<std::uint32_t, factor_count> choices{ 6, 5, 4, 4, 4, 3, 3, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2 };
+inline constexpr std::array<std::uint32_t, factor_count> choices{ 6, 5, 4, 4, 5, 3, 3, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2 };
 using choice = std::array<std::uint32_t, factor_count>;
 
 namespace detail {
@@ -187,19 +188,21 @@ inline camera_projection make_case_projection(const choice& c)
 
 inline pass_case make_case(const choice& c)
 {
-    constexpr std::array<std::string_view, 4> methods{ "box", "hemisphere", "halton", "bitmask" };
+    constexpr std::array<std::string_view, 5> methods{ "box", "hemisphere", "halton", "bitmask", "bitmask at half resolution" };
     constexpr std::array<std::string_view, 3> kinds{ "scene", "noise", "poisoned" };
     constexpr std::array<int, 3> taps{ 8, 32, 13 };
     constexpr std::array<int, 4> filters{ 1, 3, 5, 31 };
     pass_case made;
-    made.settings.method = static_cast<method>(c[of_method]);
+    const bool coarse = c[of_method] == 4;
+    made.settings.method = coarse ? method::bitmask : static_cast<method>(c[of_method]);
+    made.settings.resolution = coarse ? resolution::half : resolution::full;
     made.settings.taps = taps[c[of_taps]];
     if (made.settings.method == method::bitmask && made.settings.taps == 13) {
         made.settings.taps = 12;
         made.settings.slices = 3;
     }
     made.settings.radius = 0.8F;
-    made.settings.filter = filters[c[of_filter]];
+    made.settings.filter = coarse ? std::max(filters[c[of_filter]], 3) : filters[c[of_filter]];
     made.settings.seed = 1 + c[of_method] + c[of_size];
     if (c[of_thickness] != 0) {
         made.settings.thickness = 0.9F;

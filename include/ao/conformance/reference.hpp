@@ -153,12 +153,14 @@ struct readers {
     using ivec2 = glm::vec<2, typename traits::integer>;
     reader<Real> first;
     reader<Real> second;
+    reader<Real> eye_depth;
+    int depth_component; // of its texels
     reader<Real> tile;
     const std::vector<glm::vec4>* taps;
     bool stored_z; // a position picture: its z
 
     Real stored_depth(ivec2 pixel) const { return stored_z ? first(pixel).z : first(pixel).x; }
-    Real depth(ivec2 pixel) const { return first(pixel).x; }
+    Real depth(ivec2 pixel) const { return eye_depth(pixel)[depth_component]; }
     glm::vec<4, Real> normal(ivec2 pixel) const { return second(pixel); }
     glm::vec<2, Real> rotation(ivec2 pixel) const { return glm::vec<2, Real>(tile(pixel)); }
     glm::vec<4, Real> tap(int i) const
@@ -219,7 +221,8 @@ private:
     template <class Body>
     void over_pixels(const pass& each, Body&& body)
     {
-        values<Real> written(plan_.facts.width, plan_.facts.height);
+        const extent size = extent_of(plan_, each.output);
+        values<Real> written(size.width, size.height);
         for (int y = 0; y < written.height; ++y) {
             for (int x = 0; x < written.width; ++x) {
                 const auto i =
@@ -239,9 +242,15 @@ private:
 
     void run_pass(const pass& each)
     {
-        const resources read{ reader_of(each.inputs[0]), reader_of(each.inputs[1]), reader_of(image_id::rotation), &taps_,
-                              plan_.facts.depth == depth_source::position };
         const pass_options& o = each.options;
+        const bool denoises = each.type == pass_type::denoise_rows || each.type == pass_type::denoise_columns;
+        const resources read{ reader_of(each.inputs[0]),
+                              reader_of(each.inputs[1]),
+                              reader_of(each.inputs[denoises && o.coarse ? 2 : 0]),
+                              denoises && !o.coarse ? 1 : 0,
+                              reader_of(image_id::rotation),
+                              &taps_,
+                              plan_.facts.depth == depth_source::position };
         switch (each.type) {
         case pass_type::linearize: {
             using body = linearize_pass<Real, resources>;
@@ -268,7 +277,7 @@ private:
         case pass_type::denoise_rows:
         case pass_type::denoise_columns: {
             using body = denoise_pass<Real, resources>;
-            body run{ read, o.filter_radius, o.normal_source, o.rotate_normals, o.parallel };
+            body run{ read, o.filter_radius, o.normal_source, o.rotate_normals, o.parallel, o.coarse };
             const auto c = convert_constants<typename body::ao_denoise_constants, Real, denoise_constants, float>(
                 constants_of<denoise_constants>(each));
             if (each.type == pass_type::denoise_columns) {
@@ -316,7 +325,7 @@ private:
     {
         const pass_options& o = each.options;
         using body = bitmask_pass<Real, resources>;
-        body run{ read, o.tap_count, o.slice_count, o.normal_source, o.rotate_normals, o.parallel, o.mark_background };
+        body run{ read, o.tap_count, o.slice_count, o.normal_source, o.rotate_normals, o.parallel, o.mark_background, o.coarse };
         const auto c = convert_constants<typename body::ao_occlusion_constants, Real, occlusion_constants, float>(
             constants_of<occlusion_constants>(each));
         over_pixels(each, [&](ivec2 pixel, auto& out) {

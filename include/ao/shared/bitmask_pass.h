@@ -2,8 +2,8 @@
 // 2016) whose occluders are columns of finite thickness (Therrien et al. 2023), their sectors equal in cosine-weighted measure.
 // Callbacks: vec2 ao_load_rotation(ivec2), vec4 ao_tap(int): the tables of ao/slices.hpp; and those of normal_pass.h and
 //            slice_taps.h.
-// Options:   int ao_tap_count: of all slices; int ao_slice_count; bool ao_mark_background; and those of normal_pass.h and
-//            slice_taps.h.
+// Options:   int ao_tap_count: of all slices; int ao_slice_count; bool ao_mark_background; bool ao_coarse: one estimate per 2x2
+//            pixels; and those of normal_pass.h and slice_taps.h.
 
 struct ao_bitmask_result {
     real visibility; // [0, 1]; on background 1, or -1 where ao_mark_background asks for a mark
@@ -11,8 +11,13 @@ struct ao_bitmask_result {
     real depth;      // eye depth, 0 for background
 };
 
-AO_PASS ao_bitmask_result ao_bitmask_pass(ao_occlusion_constants c, ivec2 pixel)
+// `texel`: of what is written; it is the pixel itself, or where ao_coarse the one at twice its place.
+AO_PASS ao_bitmask_result ao_bitmask_pass(ao_occlusion_constants c, ivec2 texel)
 {
+    ivec2 pixel = texel;
+    if (ao_coarse) {
+        pixel = ivec2(texel.x * integer(2), texel.y * integer(2));
+    }
     real stored = ao_load_depth(pixel);
     mask foreground = ao_is_surface(stored, c.background);
     real d = mix(real(1), stored, foreground);
@@ -23,7 +28,7 @@ AO_PASS ao_bitmask_result ao_bitmask_pass(ao_occlusion_constants c, ivec2 pixel)
     AO_PRECISE real bias = c.bias + d * (c.bias_linear + d * c.bias_quadratic);
     ao_slice_space space =
         ao_make_slice_space(c.projection, vec2(c.width, c.height), centre, normal, d, c.radius, c.thickness, bias, c.background);
-    vec2 turn = ao_load_rotation(ao_tile_texel(pixel));
+    vec2 turn = ao_load_rotation(ao_tile_texel(texel));
     int steps = ao_tap_count / ao_slice_count;
     AO_PRECISE real step_share = real(1) / real(steps);
 
@@ -55,9 +60,9 @@ AO_PASS ao_bitmask_result ao_bitmask_pass(ao_occlusion_constants c, ivec2 pixel)
 }
 
 // The same as the denoiser takes it: packed_visibility.h, and eye depth.
-AO_PASS vec2 ao_bitmask_packed_pass(ao_occlusion_constants c, ivec2 pixel)
+AO_PASS vec2 ao_bitmask_packed_pass(ao_occlusion_constants c, ivec2 texel)
 {
-    ao_bitmask_result r = ao_bitmask_pass(c, pixel);
+    ao_bitmask_result r = ao_bitmask_pass(c, texel);
     mask foreground = r.depth > real(0);
     real both = ao_pack_visibility(mix(real(1), r.visibility, foreground), r.weight);
     return vec2(mix(real(-1), both, foreground), r.depth);
