@@ -112,25 +112,35 @@ struct memory<lanes<float, N, Tag>> {
         std::memcpy(&loaded, data, sizeof(words));
         return integer(loaded);
     }
-    // As gather, and quick where the words lie side by side.
+    // As gather, and quick where the words lie side by side, each for one lane or for two.
     static integer load(const std::byte* data, integer index)
     {
-        const int first = index[0];
+        const std::byte* at = data + std::size_t{ 4 } * static_cast<std::uint32_t>(index[0]);
         if (consecutive(index)) {
-            return load_words(data + std::size_t{ 4 } * static_cast<std::uint32_t>(first));
+            return load_words(at);
+        }
+        if (instructions::equal(index.v, twice(index[0], 1))) {
+            words used{};
+            std::memcpy(&used, at, sizeof(words) / 2);
+            return every<1, 2, 0>(used, words{});
         }
         return gather(data, index);
     }
     // The words at data + 4 * index, index >= 0, and the one behind each, of texels of two words; quick where these lie side by
-    // side.
+    // side, or each second one serves two lanes.
     static std::array<integer, 2> load_pairs(const std::byte* data, integer index)
     {
         if (instructions::equal(index.v, ascending(index[0], 2, N).v)) {
             const std::byte* at = data + std::size_t{ 4 } * static_cast<std::uint32_t>(index[0]);
             const words low = load_words(at).v;
             const words high = load_words(at + std::size_t{ 4 } * N).v;
-            return { every_second<0>(low, high, std::make_integer_sequence<int, N>{}),
-                     every_second<1>(low, high, std::make_integer_sequence<int, N>{}) };
+            return { every<2, 1, 0>(low, high), every<2, 1, 1>(low, high) };
+        }
+        if (instructions::equal(index.v, twice(index[0], 4))) {
+            const std::byte* at = data + std::size_t{ 4 } * static_cast<std::uint32_t>(index[0]);
+            const words low = load_words(at).v;
+            const words high = load_words(at + std::size_t{ 4 } * (N - 2)).v; // up to the last that is used
+            return { every<4, 2, 0>(low, high), every<4, 2, 1>(low, high) };
         }
         return { gather(data, index), gather(data + 4, index) };
     }
@@ -179,10 +189,27 @@ struct memory<lanes<float, N, Tag>> {
     }
 
 private:
-    template <int First, int... Lane>
-    static integer every_second(words low, words high, std::integer_sequence<int, Lane...>)
+    // first, first, first + step, first + step, ...
+    static words twice(int first, int step)
     {
-        return integer(__builtin_shufflevector(low, high, (2 * Lane + First)...));
+        words lane{};
+        for (int i = 0; i < N; ++i) {
+            lane[i] = i / 2;
+        }
+        return lane * step + first;
+    }
+    // In lane i the word Step * (i / Lanes) + First: of N words in `low`, or of 2 N + 2 - Step, the first N of them in `low` and
+    // the last N in `high`.
+    template <int Step, int Lanes, int First>
+    static integer every(words low, words high)
+    {
+        return every<Step, Lanes, First>(low, high, std::make_integer_sequence<int, N>{});
+    }
+    template <int Step, int Lanes, int First, int... Lane>
+    static integer every(words low, words high, std::integer_sequence<int, Lane...>)
+    {
+        constexpr auto place = [](int word) { return word < N ? word : word + Step - 2; };
+        return integer(__builtin_shufflevector(low, high, place(Step * (Lane / Lanes) + First)...));
     }
 };
 

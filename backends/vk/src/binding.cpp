@@ -28,7 +28,7 @@ VkDescriptorImageInfo picture_of(image_id id, const prepared& program, const hos
 
 void write_set(const device& d, VkDescriptorSet set, const pass& each, const prepared& program, const host_images<image>& images)
 {
-    const bool stored_source = is_software(d) && each.inputs[0] != image_id::depth;
+    const bool stored_source = is_stored(d, each);
     const VkDescriptorImageInfo first = picture_of(each.inputs[0], program, images);
     // The shader names a picture of normals even where the options take it out of use; any picture will do then.
     const VkDescriptorImageInfo second = each.inputs[1] == image_id::none ? first : picture_of(each.inputs[1], program, images);

@@ -19,8 +19,9 @@ std::span<const std::uint32_t> shader_of(const device& d, const pass& each, cons
 {
     using namespace shaders;
     const bool r8 = each.output == image_id::visibility && p.facts.output_format == pixel_format::r8;
+    const bool stored = is_stored(d, each);
     const auto pick = [&](const shader_family& f) {
-        return is_software(d) ? (r8 ? f.software_r8 : f.software) : (r8 ? f.r8 : f.plain);
+        return stored ? (r8 ? f.software_r8 : f.software) : (r8 ? f.r8 : f.plain);
     };
     switch (each.type) {
     case pass_type::linearize:
@@ -28,17 +29,17 @@ std::span<const std::uint32_t> shader_of(const device& d, const pass& each, cons
     case pass_type::occlusion:
         return pick({ occlusion_comp, occlusion_comp_r8, occlusion_comp_software, occlusion_comp_software_r8 });
     case pass_type::filter_rows:
-        return is_software(d) ? filter_rows_comp_software : filter_rows_comp;
+        return stored ? filter_rows_comp_software : filter_rows_comp;
     case pass_type::filter_columns:
         return pick(
             { filter_columns_comp, filter_columns_comp_r8, filter_columns_comp_software, filter_columns_comp_software_r8 });
     case pass_type::bitmask:
         if (each.options.mark_background) {
-            return is_software(d) ? bitmask_comp_software_packed : bitmask_comp_packed;
+            return stored ? bitmask_comp_software_packed : bitmask_comp_packed;
         }
         return pick({ bitmask_comp, bitmask_comp_r8, bitmask_comp_software, bitmask_comp_software_r8 });
     case pass_type::denoise_rows:
-        return is_software(d) ? denoise_rows_comp_software : denoise_rows_comp;
+        return stored ? denoise_rows_comp_software : denoise_rows_comp;
     case pass_type::denoise_columns:
         return pick(
             { denoise_columns_comp, denoise_columns_comp_r8, denoise_columns_comp_software, denoise_columns_comp_software_r8 });
@@ -95,6 +96,11 @@ std::optional<error> make_layouts(const device& d, prepared& made)
 
 } // namespace
 
+bool is_stored(const device& d, const pass& each)
+{
+    return is_software(d) && each.inputs[0] != image_id::depth;
+}
+
 linearize_constants copying_constants()
 {
     linearize_constants identity{};
@@ -105,7 +111,7 @@ linearize_constants copying_constants()
 
 plan executed_plan(const device& d, const plan& p)
 {
-    if (!is_software(d) || p.facts.depth != depth_source::linear) {
+    if (!is_software(d) || p.facts.depth != depth_source::linear || p.settings.resolution == resolution::half) {
         return p;
     }
     plan executed = p;

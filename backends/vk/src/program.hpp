@@ -7,6 +7,8 @@ namespace ao::vk {
 
 // Of a linearize pass, affine, that copies eye depth; what is no surface becomes 0.
 linearize_constants copying_constants();
+// Whether a pass reads its first input, which is then the program's own, as a storage image: what software devices are quick at.
+bool is_stored(const device& d, const pass& each);
 // The plan that is run for `p`: with the pass that copies the depth, where there is one. It leaves every bit of the result.
 plan executed_plan(const device& d, const plan& p);
 
