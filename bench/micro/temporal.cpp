@@ -1,5 +1,6 @@
 // What a temporal frame costs beside 32 fresh samples by the same passes and beside the ao effect: interleaved medians of one
 // run, as Markdown. Backends draw the same pictures, or there are no times.
+//     bench_temporal [--processor-time]     of cpu alone, with one thread: what a busy machine disturbs less
 #include "host/runner.hpp"
 #include "host/temporal_runner.hpp"
 #include "micro/measure.hpp"
@@ -11,6 +12,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
+#include <ctime>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -25,6 +28,29 @@ using namespace ao::bench;
 constexpr int width = 640;
 constexpr int height = 360;
 constexpr int rounds = 15;
+
+bool processor_time = false;
+
+// Milliseconds of the processor's, where they were asked for, else those that `what` returns.
+template <class What>
+double milliseconds(What&& what)
+{
+    const std::clock_t start = std::clock();
+    const double told = what();
+    const double spent = 1e3 * static_cast<double>(std::clock() - start) / static_cast<double>(CLOCKS_PER_SEC);
+    return processor_time ? spent : told;
+}
+
+host::temporal_runner_ptr make_temporal_runner(std::string_view backend)
+{
+    return processor_time ? take(host::make_cpu_temporal_runner({ .threads = 1 }))
+                          : std::move(take(host::make_temporal_runners(backend)).front());
+}
+
+host::runner_ptr make_runner(std::string_view backend)
+{
+    return processor_time ? take(host::make_cpu_runner({ .threads = 1 })) : std::move(take(host::make_runners(backend)).front());
+}
 
 enum class movement { none, camera, camera_and_ball };
 
@@ -90,9 +116,7 @@ std::vector<row> rows()
 // A row's frames on one backend, one after the other.
 class subject {
 public:
-    subject(std::string_view backend, const row& r)
-        : row_(r),
-          runner_(take(host::make_temporal_runners(backend)).front().release())
+    subject(std::string_view backend, const row& r) : row_(r), runner_(make_temporal_runner(backend))
     {
         take(runner_->prepare(r.settings, temporal_test::facts_of(stage_at(r.moves, 0), r.motion)));
         for (int i = 0; i < run_in; ++i) {
@@ -105,19 +129,21 @@ public:
     {
         const temporal_test::scene_frame& f = frame_at(row_.moves, frame_++);
         take(runner_->upload(f.inputs.depth, f.inputs.normal, f.inputs.motion));
-        double sum = 0;
-        double after = 0;
-        for (const host::temporal_pass_time& each : take(runner_->frame(f.camera, row_.cut))) {
-            sum += each.ms;
-            if (each.pass == temporal_pass_type::accumulate) {
-                accumulate.times.push_back(each.ms);
+        return milliseconds([&] {
+            double sum = 0;
+            double after = 0;
+            for (const host::temporal_pass_time& each : take(runner_->frame(f.camera, row_.cut))) {
+                sum += each.ms;
+                if (each.pass == temporal_pass_type::accumulate) {
+                    accumulate.times.push_back(each.ms);
+                }
+                else if (each.pass != temporal_pass_type::linearize) {
+                    after += each.ms;
+                }
             }
-            else if (each.pass != temporal_pass_type::linearize) {
-                after += each.ms;
-            }
-        }
-        filter.times.push_back(after);
-        return sum;
+            filter.times.push_back(after);
+            return sum;
+        });
     }
 
     // Of the latest frame, new ones per pixel: how far each sequence has gone on from the pixel where its surface was, as far as
@@ -158,13 +184,13 @@ public:
 
 private:
     row row_;
-    std::unique_ptr<host::temporal_runner> runner_;
+    host::temporal_runner_ptr runner_;
     int frame_ = 0;
 };
 
 // The ao effect with as many taps as fresh samples, its occlusion pass apart.
 struct effect {
-    explicit effect(std::string_view backend) : runner(std::move(take(host::make_runners(backend)).front()))
+    explicit effect(std::string_view backend) : runner(make_runner(backend))
     {
         const temporal_test::scene_frame& f = frame_at(movement::none, 0);
         take(runner->prepare({ .taps = 32 }, temporal_test::facts_of(stage_at(movement::none, 0), false).frame,
@@ -174,14 +200,16 @@ struct effect {
 
     double run()
     {
-        double sum = 0;
-        for (const host::pass_time& each : take(runner->frame())) {
-            sum += each.ms;
-            if (each.pass == pass_type::occlusion) {
-                occlusion.times.push_back(each.ms);
+        return milliseconds([&] {
+            double sum = 0;
+            for (const host::pass_time& each : take(runner->frame())) {
+                sum += each.ms;
+                if (each.pass == pass_type::occlusion) {
+                    occlusion.times.push_back(each.ms);
+                }
             }
-        }
-        return sum;
+            return sum;
+        });
     }
 
     host::runner_ptr runner;
@@ -249,9 +277,17 @@ void compare(std::string_view backend)
 
 } // namespace
 
-// Takes and ignores Google Benchmark's options, which ./run bench gives to every program.
-int main()
+// Ignores Google Benchmark's options, which ./run bench gives to every program.
+int main(int count, char** words)
 {
+    for (int i = 1; i < count; ++i) {
+        processor_time = processor_time || std::strcmp(words[i], "--processor-time") == 0;
+    }
+    if (processor_time) {
+        std::printf("Frames in milliseconds of the processor's, passes by the wall's clock.\n\n");
+        compare("cpu");
+        return 0;
+    }
     for (const auto& each : take(host::make_temporal_runners("all"))) {
         compare(each->backend());
     }

@@ -1,5 +1,6 @@
 // Temporal ambient occlusion on Vulkan against the reference executor, bit for bit, with the validation layer listening.
 #include "ao/vk/temporal.hpp"
+#include "unit/cpu_allocations.hpp"
 #include "unit/temporal_cases.hpp"
 #include "unit/vk_pictures.hpp"
 
@@ -176,6 +177,45 @@ TEST_CASE("the histories of poisoned frames are the reference's with the shaders
         }
     }
 }
+
+#if defined(AO_COUNTS_ALLOCATIONS)
+// Whatever recording allocates by operator new, in the library or in a driver, fails it.
+TEST_CASE("recording a temporal frame on Vulkan allocates nothing")
+{
+    // The validation layer allocates.
+    const auto quiet = ao::host::vulkan_device::create();
+    REQUIRE(quiet);
+    ao::host::vulkan_device& on = **quiet;
+    temporal_case c = base_case("allocations");
+    c.frames = 12; // the filter runs, too
+    const std::vector<sequence_frame> frames = make_sequence(c);
+    const ao::conformance::temporal_inputs& first = frames[0].frame.inputs;
+    const auto sampled = [&](const ao::picture& from) {
+        return vk_runner::upload(on, from, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    };
+    const auto depth = sampled(first.depth);
+    const auto normal = sampled(first.normal);
+    const auto motion = sampled(first.motion);
+    const auto visibility =
+        make_image(c.facts.frame.output_format, c.facts.frame.width, c.facts.frame.height, VK_IMAGE_LAYOUT_GENERAL, on);
+    ao::vk::temporal vk = executor_on(vk_runner::context_of(on));
+    auto made = ao::temporal_effect<ao::vk::temporal>::create(vk, c.settings, c.facts);
+    REQUIRE(made);
+    auto bound = made->bind({ handle(depth), handle(normal), handle(motion), handle(visibility) });
+    REQUIRE(bound);
+    int allocated = 0;
+    bool failed = false;
+    REQUIRE(on.submit([&](VkCommandBuffer commands) {
+        for (const sequence_frame& each : frames) {
+            const int before = cpu_test::allocations();
+            failed = made->record(commands, *bound, each.frame.camera).has_value() || failed;
+            allocated += cpu_test::allocations() - before;
+        }
+    }));
+    CHECK_FALSE(failed);
+    CHECK(allocated == 0);
+}
+#endif
 
 TEST_CASE("Vulkan's temporal passes refuse pictures and plans that do not fit, and say which")
 {

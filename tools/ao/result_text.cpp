@@ -94,6 +94,21 @@ const char* contribution_text(contribution_type c)
     return c == contribution_type::ritschel ? "ritschel" : c == contribution_type::bitmask ? "bitmask" : "fox-compton";
 }
 
+const char* density_text(sample_density d)
+{
+    switch (d) {
+    case sample_density::hemisphere:
+        return "hemisphere";
+    case sample_density::disc_area:
+        return "disc-area";
+    case sample_density::disc_linear:
+        return "disc-linear";
+    case sample_density::slices:
+        return "slices";
+    }
+    return "";
+}
+
 const char* history_text(history_format f)
 {
     return f == history_format::precise ? "precise" : f == history_format::packed ? "packed" : "half-stalls";

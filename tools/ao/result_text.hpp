@@ -17,6 +17,7 @@ namespace ao::tools {
 [[nodiscard]] const char* depth_text(const facts& f);
 [[nodiscard]] const char* normals_text(const facts& f);
 [[nodiscard]] const char* contribution_text(contribution_type c);
+[[nodiscard]] const char* density_text(sample_density d);
 [[nodiscard]] const char* history_text(history_format f);
 [[nodiscard]] const char* invalidation_text(invalidation_type i);
 [[nodiscard]] std::string projection_text(const projection_choice& p);

@@ -52,6 +52,7 @@ json settings_of(const temporal_result& r)
     const render_options& o = r.options;
     const ao::temporal_settings& s = o.temporal->settings;
     return { { "contribution", contribution_text(s.contribution) },
+             { "density", density_text(s.density) },
              { "samples", { s.first_samples, s.later_samples } },
              { "period", s.period },
              { "most_weight", s.most_weight },

@@ -19,6 +19,7 @@ void add_temporal_options(CLI::App& command, temporal_arguments& a)
     add("--samples", a.samples, "K1,K2 of --temporal: per pixel and frame while little is known, and later; without it 32,8");
     add("--most-weight", a.most_weight, "of --temporal: samples that a history stands for at most");
     add("--contribution", a.contribution, "of --temporal: ritschel|fox-compton, or bitmask, which --preset stands for");
+    add("--density", a.density, "of --temporal: hemisphere (ritschel), disc-area or disc-linear (fox-compton), slices (bitmask)");
     add("--history", a.history, "of --temporal: precise|packed|half-stalls");
     add("--invalidation", a.invalidation, "of --temporal: none|smooth|clamp, where a neighbourhood changed");
     add("--smoothness", a.smoothness, "of --temporal: how fast smooth invalidation forgets");
@@ -33,6 +34,12 @@ temporal_choice check_temporal(const temporal_arguments& a, const ao::settings& 
         { "ritschel", contribution_type::ritschel },
         { "fox-compton", contribution_type::fox_compton },
         { "bitmask", contribution_type::bitmask },
+    } };
+    static constexpr std::array<std::pair<std::string_view, sample_density>, 4> densities{ {
+        { "hemisphere", sample_density::hemisphere },
+        { "disc-area", sample_density::disc_area },
+        { "disc-linear", sample_density::disc_linear },
+        { "slices", sample_density::slices },
     } };
     static constexpr std::array<std::pair<std::string_view, history_format>, 3> formats{ {
         { "precise", history_format::precise },
@@ -56,6 +63,8 @@ temporal_choice check_temporal(const temporal_arguments& a, const ao::settings& 
     }
     if (s.contribution == contribution_type::fox_compton)
         s.density = sample_density::disc_area;
+    if (!a.density.empty())
+        s.density = choose("--density", a.density, densities);
     s.format = choose("--history", a.history, formats);
     s.invalidation = choose("--invalidation", a.invalidation, invalidations);
     s.radius = common.radius;

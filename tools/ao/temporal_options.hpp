@@ -20,7 +20,7 @@ struct temporal_choice {
 // What the options are parsed into.
 struct temporal_arguments {
     bool wanted = false;
-    std::string motion = "static", samples, contribution, history = "precise", invalidation = "smooth";
+    std::string motion = "static", samples, contribution, density, history = "precise", invalidation = "smooth";
     std::optional<int> most_weight;
     double smoothness = static_cast<double>(temporal_settings{}.smoothness);
 };

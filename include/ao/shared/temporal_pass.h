@@ -318,10 +318,13 @@ AO_PASS ao_temporal_pixel ao_begin_pixel(ao_temporal_constants c, ivec2 pixel)
     ao_frame upright = ao_sampling_frame(normal, vec2(real(1), real(0)));
     real slope = ao_depth_slope(ao_make_tap_space(c.projection, size, position, upright, d, c.radius), ao_parallel);
     ao_previous previous = { position, centre, foreground };
-    ao_history h = ao_own_history(c, pixel);
+    ao_history h;
     if (ao_reproject) {
         previous = ao_previous_of(c, pixel, position);
         h = ao_recalled_history(c, centre, previous, slope);
+    }
+    else {
+        h = ao_own_history(c, pixel);
     }
     real wanted = mix(c.later_samples, c.first_samples, h.weight < c.adaptive_weight);
     ao_temporal_pixel begun = { foreground, d, position, normal, slope, previous, h, mix(real(0), wanted, foreground) };
@@ -423,12 +426,10 @@ AO_PASS ao_history ao_accumulate_pass(ao_temporal_constants c, ivec2 pixel)
         samples = ao_sample_offsets(c, begun, pixel, bias, normal_was);
     }
     real weight = h.weight;
-    real confidence = ao_confidence(samples.change, c.steepness); // the least over the samples
-    if (ao_reproject && ao_invalidation == ao_smooth_weight) {
-        weight = ao_kept_weight(weight, confidence);
-    }
-    if (ao_reproject && ao_invalidation == ao_clamp_weight) {
-        weight = mix(weight, min(weight, c.clamped_weight), confidence < real(0.5));
+    if (ao_reproject && ao_invalidation != ao_keep_weight) {
+        real confidence = ao_confidence(samples.change, c.steepness); // the least over the samples
+        weight = ao_invalidation == ao_smooth_weight ? ao_kept_weight(weight, confidence)
+                                                     : mix(weight, min(weight, c.clamped_weight), confidence < real(0.5));
     }
     // A slice at right angles to the normal, and no history: nothing is known.
     AO_PRECISE real known = weight + samples.weight;
