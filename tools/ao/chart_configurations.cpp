@@ -13,8 +13,8 @@ constexpr int usual_filter = 5;
 
 struct family {
     const char* name;
-    ao::settings base;                                // but for taps and filter
-    std::vector<std::pair<const char*, int>> presets; // names of taps, beside those of --taps
+    ao::settings base; // but for taps
+    std::vector<std::pair<const char*, preset>> presets;
 };
 
 ao::settings of(ao::method m)
@@ -31,10 +31,13 @@ std::vector<family> families()
         { "box", of(method::box), {} },
         { "hemisphere", of(method::hemisphere), {} },
         { "halton", of(method::halton), {} },
-        { "bitmask", settings_of(preset::high), { { "low", 4 }, { "medium", 8 }, { "high", 18 }, { "ultra", 36 } } },
+        { "bitmask",
+          settings_of(preset::high),
+          { { "low", preset::low }, { "medium", preset::medium }, { "high", preset::high }, { "ultra", preset::ultra } } },
     };
 }
 
+// Beside bitmask, which serves single frames too.
 constexpr std::array<const char*, 2> temporal_methods{ "ritschel", "fox-compton" };
 
 bool wanted(const chart_options& o, const std::string& method)
@@ -50,8 +53,10 @@ chart_configuration make(const family& f, int taps, int filter, const std::strin
     c.settings = f.base;
     c.settings.taps = taps;
     c.settings.filter = filter;
+    if (filter == 1)
+        c.settings.resolution = resolution::full;
     c.name = c.method + " " + std::to_string(taps) + (taps == 1 ? " tap" : " taps");
-    if (filter != usual_filter)
+    if (filter != f.base.filter)
         c.name += filter == 1 ? ", no filter" : ", filter " + std::to_string(filter);
     return c;
 }
@@ -65,7 +70,7 @@ chart_configuration named(chart_configuration c, const std::string& what)
 // Everything else that a user can choose, each by itself beside the middle of the taps.
 void add_choices(std::vector<chart_configuration>& all, const family& f)
 {
-    const auto base = [&](const char* varies) { return make(f, middle_taps, usual_filter, varies); };
+    const auto base = [&](const char* varies) { return make(f, middle_taps, f.base.filter, varies); };
     for (const int filter : { 1, 3, 9 })
         all.push_back(make(f, middle_taps, filter, "filter"));
     using depth = std::pair<const char*, std::pair<depth_source, pixel_format>>;
@@ -111,19 +116,24 @@ std::vector<chart_configuration> single_configurations(const chart_options& o)
         if (!wanted(o, f.name))
             continue;
         for (const int taps : o.taps)
-            if (f.base.method != method::bitmask || taps % 2 == 0) // both sides of a slice
-                all.push_back(make(f, taps, usual_filter, "taps"));
-        for (const auto& [name, taps] : f.presets) {
-            chart_configuration c = make(f, taps, usual_filter, "taps");
-            c.name = c.method + " " + name + ", " + std::to_string(taps) + " taps";
-            std::erase_if(all, [&, taps = taps](const chart_configuration& each) {
-                return each.method == c.method && each.settings.taps == taps;
-            });
+            if (f.base.method != method::bitmask || taps % f.base.slices == 0)
+                all.push_back(make(f, taps, f.base.filter, "taps"));
+        for (const auto& [name, chosen] : f.presets) {
+            chart_configuration c = make(f, settings_of(chosen).taps, f.base.filter, "presets");
+            c.settings = settings_of(chosen);
+            c.name = c.method + " " + name + ", " + std::to_string(c.settings.taps) + " taps";
             all.push_back(c);
+            if (c.settings.resolution == resolution::half) {
+                chart_configuration full = named(c, "full resolution");
+                full.varies = "resolution";
+                full.settings.resolution = resolution::full;
+                full.settings.filter = usual_filter;
+                all.push_back(full);
+            }
         }
         if (f.base.method == method::box) {
             // As printed in paper 1.
-            chart_configuration printed = named(make(f, 32, usual_filter, "thickness"), "infinite thickness");
+            chart_configuration printed = named(make(f, 32, f.base.filter, "thickness"), "infinite thickness");
             printed.settings.thickness = std::numeric_limits<float>::infinity();
             all.push_back(printed);
         }
@@ -162,6 +172,8 @@ std::vector<temporal_configuration> temporal_configurations(const chart_options&
     patches.contribution = contribution_type::fox_compton;
     patches.density = sample_density::disc_area;
     add("fox-compton", "fox-compton 8 samples", patches);
+    for (const auto& [name, chosen] : { std::pair{ "low", preset::low }, std::pair{ "medium", preset::medium } })
+        add("bitmask", std::string("bitmask ") + name, temporal_settings_of(settings_of(chosen)));
     return all;
 }
 

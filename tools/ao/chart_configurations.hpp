@@ -13,7 +13,8 @@ namespace ao::tools {
 struct chart_configuration {
     std::string name;   // unique
     std::string method; // one color
-    std::string varies; // what it is there for: "taps", "convergence", "filter", "depth", "normals", "output", "thickness"
+    // What it is there for: "taps", "presets", "resolution", "convergence", "filter", "depth", "normals", "output", "thickness".
+    std::string varies;
     ao::settings settings;
     ao::facts facts; // without a size
     bool timed = true;

@@ -134,6 +134,8 @@ json single_json(const single_result& r, const chart_results& all)
                { "method", c.method },
                { "varies", c.varies },
                { "taps", c.settings.taps },
+               { "slices", c.settings.slices },
+               { "resolution", c.settings.resolution == resolution::half ? "half" : "full" },
                { "filter", c.settings.filter },
                { "thickness", number(static_cast<double>(c.settings.thickness)) },
                { "bias_setting", number(static_cast<double>(c.settings.bias)) },

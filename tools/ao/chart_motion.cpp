@@ -7,6 +7,7 @@
 #include "scene/motion.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <ctime>
 #include <limits>
@@ -319,7 +320,8 @@ private:
         for (std::size_t i = 0; i < r_.single.size(); ++i) {
             single_result& each = r_.single[i];
             const chart_configuration& c = each.configuration;
-            if (!c.timed || (c.varies != "taps" && c.varies != "filter" && c.varies != "thickness"))
+            constexpr std::array<const char*, 5> shown{ "taps", "presets", "resolution", "filter", "thickness" };
+            if (!c.timed || std::find(shown.begin(), shown.end(), c.varies) == shown.end())
                 continue;
             ao::settings s = c.settings;
             s.radius = place_.radius;
