@@ -17,7 +17,6 @@ std::vector<remark> all_remarks()
 {
     return {
         { "B2", "B1: sums of weights hold the centre's, so none is 0; a single pixel in background keeps its value" },
-        { "B7", "does not apply: no pass runs at half resolution" },
         { "7.1", "D1" },
         { "7.2", "D1: at 85 degrees an open plane is 1 for every rotation, so its mean is, too" },
         { "7.3", "S1, S1c" },
@@ -31,7 +30,6 @@ std::vector<remark> all_remarks()
         { "7.16", "D2, D2o, X2" },
         { "7.17", "X2" },
         { "7.18", "S3, S4r; bounded cost: the number of taps is fixed, no loop depends on the radius" },
-        { "7.22", "does not apply: no pass runs at half resolution" },
         { "7.24", "X8, S7" },
         { "7.26", "F5a" },
         { "7.27", "F6, F6g" },

@@ -182,6 +182,72 @@ double transposed(subject& s)
     return wrong;
 }
 
+constexpr int wire_distance = 16; // pixels
+
+// A wall and a floor, and before them wires as wide as a pixel, from `column` on; none where that is negative.
+shot wired(int column)
+{
+    shot made = shoot({ 80, 60, 1, false }, both(crease(0.8), tilted(0, 4)), ao::settings_of(ao::preset::high));
+    for (std::size_t i = 0; i < made.depth.size(); ++i) {
+        if (column >= 0 && static_cast<int>(i % 80) % wire_distance == column) {
+            made.depth[i] = 2;
+            made.normals[i] = glm::vec3(0, 0, 1);
+        }
+    }
+    return made;
+}
+
+// Mean over eight seeds of the pixels from `nearest` to `farthest` columns beside the wires from `column` on.
+double beside_wires(subject& s, shot made, ao::resolution resolution, int column, int nearest, int farthest)
+{
+    made.settings.resolution = resolution;
+    double sum = 0;
+    int count = 0;
+    for (std::uint32_t seed = 1; seed <= 8; ++seed) {
+        made.settings.seed = seed;
+        const auto seen = s.frame(made);
+        for (std::size_t i = 0; i < seen.size(); ++i) {
+            const int away = std::abs(static_cast<int>(i % 80) % wire_distance - column);
+            if (away >= nearest && away <= farthest) {
+                sum += static_cast<double>(seen[i]);
+                ++count;
+            }
+        }
+    }
+    return sum / count;
+}
+
+// Half against full resolution on the wires themselves.
+double thin_at_half(subject& s)
+{
+    const int column = s.faulty ? 9 : 8;
+    const shot made = wired(column);
+    return std::abs(beside_wires(s, made, ao::resolution::half, column, 0, 0) -
+                    beside_wires(s, made, ao::resolution::full, column, 0, 0));
+}
+
+// What wires change up to four pixels beside them, at half minus at full resolution; faulty: the picture blurred across them.
+double halo_at_half(subject& s)
+{
+    const auto change = [&](ao::resolution r) {
+        return beside_wires(s, wired(8), r, 8, 1, 4) - beside_wires(s, wired(-1), r, 8, 1, 4);
+    };
+    const double full = change(ao::resolution::full);
+    if (s.faulty) {
+        s.change_visibility = [](std::vector<float>& all) {
+            const std::vector<float> before = all;
+            for (std::size_t i = 4; i + 4 < all.size(); ++i) {
+                float sum = 0;
+                for (std::size_t k = i - 4; k <= i + 4; ++k) {
+                    sum += before[k];
+                }
+                all[i] = sum / 9;
+            }
+        };
+    }
+    return std::abs(change(ao::resolution::half) - full);
+}
+
 // Settings that are no filter: accepted ones.
 double bad_settings(subject& s)
 {
@@ -216,6 +282,11 @@ std::vector<row> filter_rows()
           domain::temporal, leak, "a support of 100 units, which spans the jump", mark_faulty },
         { "B6", "pixels whose filtered value is open in a picture and not in its transpose", 0, false,
           "rows then columns equal columns then rows", domain::passes, transposed, "not transposed", mark_faulty },
+        { "B7", "bitmask at half resolution on wires a pixel wide, minus full resolution", 0.005, false,
+          "five times the mean's deviation: 2400 pixels of eight seeds with 0.05 each", domain::passes, thin_at_half,
+          "wires on odd columns, of which no pixel is estimated", mark_faulty },
+        { "7.22", "what wires a pixel wide change up to four pixels beside them, at half minus at full resolution", 0.005, false,
+          "as B7", domain::passes, halo_at_half, "a blur that knows no depth", mark_faulty },
         { "B8", "filters of even, negative or huge size, supports 0, negative, infinite or NaN that are accepted", 0, false,
           "refused with a reason", domain::core, bad_settings, "valid ones in their place", mark_faulty },
     };
