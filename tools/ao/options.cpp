@@ -115,6 +115,8 @@ ao::settings parse_settings(const render_arguments& a)
     ao::settings s;
     if (!a.method.empty())
         s.method = choose("--method", a.method, methods);
+    else if (!a.temporal.wanted) // whose own estimate is another
+        s.method = method::bitmask;
     if (!a.preset.empty() || s.method == method::bitmask) {
         const ao::preset chosen = a.preset.empty() ? preset::high : choose("--preset", a.preset, presets);
         if (!a.method.empty() && s.method != method::bitmask)
@@ -126,7 +128,7 @@ ao::settings parse_settings(const render_arguments& a)
         }
     }
     s.taps = a.taps.value_or(s.taps);
-    s.slices = a.slices.value_or(s.slices);
+    s.slices = a.slices.value_or(s.taps % s.slices == 0 ? s.slices : 1);
     if (a.slices && s.method != method::bitmask)
         throw error("--slices: of --method bitmask");
     static constexpr std::array<std::pair<std::string_view, ao::resolution>, 2> resolutions{ {
@@ -135,6 +137,8 @@ ao::settings parse_settings(const render_arguments& a)
     } };
     if (!a.resolution.empty())
         s.resolution = choose("--resolution", a.resolution, resolutions);
+    else if (a.filter == 1) // nothing would find the pixels between the estimates
+        s.resolution = resolution::full;
     s.bent_normal = a.bent_normal;
     s.radius = static_cast<float>(a.radius);
     s.bias = static_cast<float>(a.bias.value_or(static_cast<double>(s.bias)));
@@ -160,9 +164,9 @@ void add_render_options(CLI::App& command, render_arguments& a)
     command.add_option("--device", a.device, "part of the GL or Vulkan device's name; without it llvmpipe and lavapipe");
     command.add_option("--route", a.route, "of gl: compute|fragment|all");
     command.add_option("--lanes", a.lanes, "of cpu: auto|scalar|4|8|16");
-    command.add_option("--method", a.method, "box|hemisphere|halton|bitmask; hemisphere without it");
+    command.add_option("--method", a.method, "box|hemisphere|halton|bitmask; bitmask without it");
     command.add_option("--preset", a.preset, "of bitmask: low|medium|high|ultra, which sets what is not given; high without it");
-    command.add_option("--taps", a.taps, "per pixel, 1 to 1024");
+    command.add_option("--taps", a.taps, "per pixel, 1 to 1024; of bitmask per estimate, of all slices together");
     command.add_option("--slices", a.slices, "of bitmask, 1 to 16: taps are of all slices together");
     command.add_option("--resolution", a.resolution, "of bitmask: full|half, one estimate a pixel or per 2x2 pixels");
     command.add_flag("--bent-normal", a.bent_normal,
