@@ -181,6 +181,7 @@ TEST_CASE("Beside a wall the bent normal leans away as far as it should", "[core
         const glm::dvec3 expected(-2 * std::pow(1 - h * h, 1.5) / (3 * pi), 0, 1.0 / 3 + h / 2 - h * h * h / 6);
         const glm::dvec3 found = sum_of_columns(v, all, v.width / 2 - away, v.width / 2 - away + 1);
         CAPTURE(away, h, expected.x, expected.z, found.x, found.y, found.z);
+        // A quarter of a slice spans some 30 degrees and counts as its mean, however much of it is open.
         CHECK(degrees(expected, found) < 1.5);
     }
     for (int x = 0; x < v.width / 2 - 33; ++x) {
@@ -210,11 +211,11 @@ TEST_CASE("In the middle of a trench the bent normal is the normal", "[core][ben
             right += sum_of_columns(v, all, 38, 39);
         }
         CAPTURE(static_cast<int>(preset), middle.x, middle.y, middle.z, left.x, left.z, right.x, right.z);
-        CHECK(degrees(middle, { 0, 0, 1 }) < 2);
+        CHECK(degrees(middle, { 0, 0, 1 }) < 1);
         // Nearer to one wall, away from it, and alike on both sides.
         CHECK(degrees(left, { 0, 0, 1 }) > 5);
         CHECK(left.x > 0);
-        CHECK(degrees(left, { -right.x, right.y, right.z }) < 4);
+        CHECK(degrees(left, { -right.x, right.y, right.z }) < 2);
     }
 }
 

@@ -13,9 +13,9 @@ TEST_CASE("bent normals are written, shaded along, and the same on every backend
     const scratch_directory dir;
     const std::filesystem::path out = dir.path / "pictures";
     const std::string json = (dir.path / "numbers.json").string();
-    REQUIRE(run(dir,
-                { "render", "courtyard", "--method", "bitmask", "--preset", "high", "--bent-normal", "--multi-bounce", "--shade",
-                  "--gbuffer", "rays", "--size", "96x54", "--frames", "1", "--out", out.string(), "--json", json }) == 0);
+    REQUIRE(
+        run(dir, { "render", "courtyard", "--method", "bitmask", "--preset", "high", "--bent-normal", "--multi-bounce", "--shade",
+                   "--gbuffer", "rays", "--size", "96x54", "--frames", "1", "--out", out.string(), "--json", json }) == 0);
     const auto numbers = nlohmann::json::parse(read_all(json));
     CHECK(numbers["settings"]["bent_normal"] == true);
     CHECK(numbers["settings"]["multi_bounce"] == true);
@@ -28,9 +28,9 @@ TEST_CASE("bent normals are written, shaded along, and the same on every backend
 
     // Neither switch is without effect on the shaded picture.
     for (const char* left_out : { "--bent-normal", "--multi-bounce" }) {
-        std::vector<std::string> words{ "render", "courtyard", "--method",  "bitmask", "--shade", "--gbuffer",
-                                        "rays",   "--size",    "96x54",     "--frames", "1",      "--backend",
-                                        "cpu",    "--out",     out.string() };
+        std::vector<std::string> words{ "render",    "courtyard", "--method", "bitmask", "--shade",
+                                        "--gbuffer", "rays",      "--size",   "96x54",   "--frames",
+                                        "1",         "--backend", "cpu",      "--out",   out.string() };
         for (const char* word : { "--bent-normal", "--multi-bounce" })
             if (std::string(word) != left_out)
                 words.push_back(word);

@@ -20,9 +20,7 @@ std::span<const std::uint32_t> shader_of(const device& d, const pass& each, cons
     using namespace shaders;
     const bool r8 = each.output == image_id::visibility && p.facts.output_format == pixel_format::r8;
     const bool stored = is_stored(d, each);
-    const auto pick = [&](const shader_family& f) {
-        return stored ? (r8 ? f.software_r8 : f.software) : (r8 ? f.r8 : f.plain);
-    };
+    const auto pick = [&](const shader_family& f) { return stored ? (r8 ? f.software_r8 : f.software) : (r8 ? f.r8 : f.plain); };
     switch (each.type) {
     case pass_type::linearize:
         return linearize_comp;
