@@ -49,7 +49,8 @@ AO_PASS real ao_likeness(vec3 direction, ivec2 texel)
 // Half a whole number of 0 or more, rounded down.
 AO_FN integer ao_halved(integer n)
 {
-    return integer(real(n) * real(0.5));
+    AO_PRECISE real half_of_it = real(n) * real(0.5);
+    return integer(half_of_it);
 }
 
 // A window along the pixel's row or, where not `rows`, its column.
