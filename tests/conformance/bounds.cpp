@@ -96,7 +96,12 @@ struct careless_subject {
         for (std::size_t i = 0; i < out.pixels(); ++i) {
             const float v = visibility.texels[i].x.x;
             differing_ += v != reference_value(*p, depth, normal, i) ? 1U : 0U;
-            if (out.format == pixel_format::r8) {
+            if (out.format == pixel_format::rgba16f) {
+                const auto& texel = visibility.texels[i];
+                out.set_texel(i, std::array{ float_to_half(std::min(v, 1.0F)), float_to_half(texel.y.x), float_to_half(texel.z.x),
+                                             float_to_half(texel.w.x) });
+            }
+            else if (out.format == pixel_format::r8) {
                 out.set_texel(i, static_cast<std::uint8_t>(unorm_code(static_cast<double>(v), 255)));
             }
             else {

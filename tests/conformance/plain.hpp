@@ -25,7 +25,7 @@ enum class fault {
     tile_transposed,
     thickness_ignored,
     last_tap_lost,
-    directions_swapped
+    whole_lost
 };
 
 // Texels of four floats, as a texture unit would deliver them.
@@ -81,7 +81,7 @@ struct resources {
     glm::vec2 directions(glm::ivec2 p) const
     {
         const glm::vec4 texel = fetch(0, p);
-        return planted == fault::directions_swapped ? glm::vec2(texel.w, texel.z) : glm::vec2(texel.z, texel.w);
+        return planted == fault::whole_lost ? glm::vec2(texel.z, texel.z) : glm::vec2(texel.z, texel.w);
     }
 };
 
