@@ -183,6 +183,7 @@ ao::settings limit_of(ao::settings s)
     // Steps of a quarter of a pixel and less serve nothing: many slices.
     s.slices = s.method == method::bitmask ? max_slices : 1;
     s.filter = 1;
+    s.resolution = resolution::full;
     s.seed += 1000;
     return s;
 }
