@@ -45,7 +45,6 @@ struct careless {
     friend bool operator<=(careless a, careless b) { return a.x <= b.x; }
     friend bool operator>(careless a, careless b) { return a.x > b.x; }
     friend bool operator>=(careless a, careless b) { return a.x >= b.x; }
-    friend bool operator!=(careless a, careless b) { return a.x != b.x; }
 };
 
 } // namespace
