@@ -6,10 +6,9 @@
 //            an earlier ao_segment_pass returned; uint ao_load_word(uint): the table of shade_tables.h; uint ao_load_texel(uint):
 //            the heap of texture.h; void ao_count_clamped(uint): weights at this pixel that were outside [0, 1] or NaN. Called
 //            only where there are any.
-// Options:   bool ao_stored_position (else depth), bool ao_parallel, int ao_normal_source, bool ao_use_visibility, bool
-// ao_use_maps,
-//            bool ao_use_reflections, bool ao_use_frames, bool ao_use_blends, bool ao_use_bent_normal, bool ao_use_bounces. A
-//            callback whose option is off is not called.
+// Options:   bool ao_stored_position (else depth), bool ao_parallel, int ao_normal_source, bool ao_use_visibility,
+//            bool ao_use_maps, bool ao_use_reflections, bool ao_use_frames, bool ao_use_blends, bool ao_use_bent_normal,
+//            bool ao_use_bounces. A callback whose option is off is not called.
 // Control flow depends on the material: Real types whose mask is bool only.
 
 struct ao_shade_constants {
