@@ -214,15 +214,11 @@ double facets(subject& s)
 
 // 7.18 and 7.19. How much occlusion rises from one distance to the next one farther away, in a dolly from 4 to 4096 units, and
 // what of it is left at the end.
-double dolly_over(subject& s, double tilt, float bias)
+double dolly_over(subject& s, double tilt, const ao::settings& settings)
 {
     worst w;
     double last = -1;
     for (double distance = 4; distance <= 4096; distance *= s.thorough ? 2 : 4) {
-        ao::settings settings;
-        settings.filter = 1;
-        settings.radius = 0.5F;
-        settings.bias = bias;
         const solid scene = both(tilted(tilt, distance), square(0.6, distance - 0.3));
         const double now = mean_occlusion(s, shoot({ 48, 36, 0.3, false }, scene, settings));
         if (last >= 0) {
@@ -234,15 +230,30 @@ double dolly_over(subject& s, double tilt, float bias)
     return w.value();
 }
 
+ao::settings kernel_with(float bias)
+{
+    ao::settings settings;
+    settings.filter = 1;
+    settings.radius = 0.5F;
+    settings.bias = bias;
+    return settings;
+}
+
 double dolly(subject& s)
 {
-    return s.faulty ? dolly_over(s, 30, 0.0F) : dolly_over(s, 0, 0.02F);
+    return s.faulty ? dolly_over(s, 30, kernel_with(0.0F)) : dolly_over(s, 0, kernel_with(0.02F));
 }
 
 // A tilted plane, whose depth changes within a pixel by more than any fixed bias.
 double tilted_dolly(subject& s)
 {
-    return dolly_over(s, 30, s.faulty ? 0.0F : 0.02F);
+    return dolly_over(s, 30, kernel_with(s.faulty ? 0.0F : 0.02F));
+}
+
+// By the settings to take, which measure heights over the tangent plane.
+double bitmask_dolly(subject& s)
+{
+    return dolly_over(s, 30, s.faulty ? kernel_with(0.02F) : ao::settings_of(ao::preset::high, 0.5F));
 }
 
 // 7.20. Mean visibility at three resolutions; faulty: a radius in pixels.
@@ -402,6 +413,8 @@ std::vector<row> field_rows()
           0.01, false, "monotone, and open in the end", domain::passes, dolly, "bias 0, wall tilted by 30 degrees", mark_faulty },
         { "7.19t", "the same, wall tilted by 30 degrees, bias of 0.04 radii", 0.01, false, "monotone, and open in the end",
           domain::passes, tilted_dolly, "bias 0", mark_faulty, true },
+        { "7.19b", "the same, wall tilted by 30 degrees, bitmask high without a bias", 0.01, false,
+          "monotone, and open in the end", domain::passes, bitmask_dolly, "the kernel of 7.19t", mark_faulty },
         { "7.20", "spread of mean visibility over three resolutions", 0.01, false, "half a pixel at silhouettes", domain::passes,
           resolutions, "a radius in pixels", mark_faulty },
         { "7.21", "1 - visibility of an open plane at sizes 1 to 33", 0, false, "bias covers half a pixel", domain::passes,
