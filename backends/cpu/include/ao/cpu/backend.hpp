@@ -10,8 +10,9 @@
 // Output: visibility in [0, 1], 1 = open, r32f or r8 (to nearest); rgba16f with bent normals. It may not overlap inputs.
 // Every view has exactly the plan's width and height, and at most 2^31 - 1 words of 4 bytes.
 //
-// Memory of a program: 4 bytes per pixel of eye depth unless the input is linear, 12 per pixel if there is a filter, 16 KiB of
-// kernel and 32 KiB of rotations. A binding is a few pointers. Nothing is allocated after prepare, other than tasks by oneTBB.
+// Memory of a program: 4 bytes per pixel of eye depth unless the input is linear, 12 per pixel if there is a filter (of bitmask
+// 16, at half resolution 6, twice that with bent normals), 16 KiB of kernel and 32 KiB of rotations. A binding is a few pointers.
+// Nothing is allocated after prepare, other than tasks by oneTBB.
 //
 // record_pass runs the pass and returns when it is done: there is nothing to submit or to wait for. The calling thread works
 // along. Calls may come from any thread; several at once are fine for different programs. A program belongs to one picture at a
