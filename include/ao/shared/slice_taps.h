@@ -57,6 +57,8 @@ AO_PASS ao_slice_space ao_make_slice_space(ao_projection p, vec2 size, vec2 cent
 // What the taps of one slice have in common.
 struct ao_slice_walk {
     vec2 direction; // D, in view space
+    real lean;      // its component along V
+    real inverse;   // 1 / length of the rest
     vec2 texels;    // pixels per slope along it
     real across;    // distance from V per slope and depth
     ao_slice slice;
@@ -75,17 +77,15 @@ AO_PASS ao_slice_walk ao_make_slice_walk(ao_slice_space t, ao_projection p, real
     AO_PRECISE real along = (direction.x * t.normal.x + direction.y * t.normal.y - t.facing * lean) * inverse;
     AO_PRECISE real across = square * inverse * t.scale;
     AO_PRECISE vec2 texels = vec2(direction.x * p.scale_x, direction.y * p.scale_y);
-    ao_slice_walk walk = { direction, texels, across, ao_make_slice(along, t.facing) };
+    ao_slice_walk walk = { direction, lean, inverse, texels, across, ao_make_slice(along, t.facing) };
     return walk;
 }
 
 // Unit, in the slice and at a right angle to V.
 AO_FN vec3 ao_slice_across(ao_slice_space t, ao_slice_walk w)
 {
-    AO_PRECISE real lean = w.direction.x * t.view.x + w.direction.y * t.view.y;
-    AO_PRECISE real inverse = ao_inverse_root(max(real(1) - lean * lean, real(1e-12)));
-    AO_PRECISE vec3 across = vec3((w.direction.x - t.view.x * lean) * inverse, (w.direction.y - t.view.y * lean) * inverse,
-                                  -(t.view.z * lean * inverse));
+    AO_PRECISE vec3 across = vec3((w.direction.x - t.view.x * w.lean) * w.inverse,
+                                  (w.direction.y - t.view.y * w.lean) * w.inverse, -(t.view.z * w.lean * w.inverse));
     return across;
 }
 

@@ -28,8 +28,8 @@
 // level 0; bind() checks that, afterwards they must stay. Filters, wrapping and comparison never matter.
 // A texture must not be in the host's framebuffer with depth writes on while the passes run (a feedback loop).
 //
-// Memory beside the host's textures, per pixel: 12 bytes with a filter, 4 more unless depth is linear; constant: 32 KiB of
-// rotations, 16 KiB of taps, 1 KiB of constants per program.
+// Memory beside the host's textures, per pixel: 12 bytes with a filter (docs/integrating.md: of bitmask others), 4 more unless
+// depth is linear; constant: 32 KiB of rotations, 16 KiB of taps, 1 KiB of constants per program.
 //
 // Order. Passes see what earlier draws wrote; where the host wrote an input by image stores or from a buffer, it issues the
 // barrier. After the last pass visibility is ready for texture fetches, image access, framebuffers and read-back.

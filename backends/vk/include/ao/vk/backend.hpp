@@ -30,8 +30,8 @@
 // compute descriptor set 0 and the push constants, nothing else.
 //
 // Device features: shaderStorageImageExtendedFormats where a filter runs (RG32_SFLOAT is stored to) or the output is R8_UNORM.
-// Memory of a program, bytes per pixel: 4 unless depth is linear, and 12 with a filter; besides, 48 KiB of tables. On devices
-// that are CPUs linear depth takes 4 too.
+// Memory of a program, bytes per pixel: 4 unless depth is linear, and 12 with a filter (docs/integrating.md: of bitmask others);
+// besides, 48 KiB of tables. On devices that are CPUs linear depth takes 4 too.
 #pragma once
 
 #include "ao/backend.hpp"
